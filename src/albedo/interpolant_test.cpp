@@ -1,0 +1,52 @@
+#include "albedo/interpolant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include "albedo/directional_albedo.h"
+
+namespace sheen::albedo {
+namespace {
+
+TEST(Interpolant, MeetsQuadratureEverywhere) {
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+    const Interpolant interpolant(visibility);
+    for (int i = 0; i < 1500; ++i) {
+      const double mu = i % 2 == 0 ? std::max(min_n_dot_v, unit(generator)) : std::exp(std::log(min_n_dot_v) * unit(generator));
+      const double r = i % 3 == 0 ? unit(generator) : std::exp(std::log(1e-6) * unit(generator));
+      const double e = directional_albedo(visibility, mu, r);
+      EXPECT_NEAR(interpolant(mu, r), e, 6e-7 * std::max(e, 1.0)) << "n_dot_v " << mu << " sheen_roughness " << r;
+    }
+  }
+}
+
+TEST(Interpolant, HoldsAtItsCorners) {
+  const Interpolant interpolant(Visibility::Charlie);
+  EXPECT_NEAR(interpolant(1, 1), directional_albedo(Visibility::Charlie, 1, 1), 3e-7);
+  EXPECT_NEAR(interpolant(min_n_dot_v, 1), directional_albedo(Visibility::Charlie, min_n_dot_v, 1), 1e-6);
+  EXPECT_NEAR(interpolant(0.5, 0.5), directional_albedo(Visibility::Charlie, 0.5, 0.5), 3e-7) << "where Lambda changes branch";
+  EXPECT_EQ(interpolant(0.5, 0), 0);
+  EXPECT_EQ(interpolant(0, 0.5), interpolant(min_n_dot_v, 0.5)) << "cosines are floored";
+}
+
+TEST(Interpolant, GivesEveryThreadTheSame) {
+  const Interpolant interpolant(Visibility::Ashikhmin);
+  std::vector<double> parallel(4000), serial(4000);
+  const auto at = [&](std::size_t i) {
+    return interpolant(0.001 + 0.999 * static_cast<double>(i % 400) / 400, 0.1 + 0.09 * static_cast<double>(i / 400));
+  };
+  tbb::parallel_for(std::size_t{0}, parallel.size(), [&](std::size_t i) { parallel[i] = at(i); });
+  for (std::size_t i = 0; i < serial.size(); ++i) {
+    serial[i] = at(i);
+  }
+  EXPECT_EQ(parallel, serial);
+}
+
+}  // namespace
+}  // namespace sheen::albedo

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "brdf/math.h"
+
+namespace sheen::brdf {
+
+/// The "Charlie" distribution D of the sheen lobe, in 1/sr: an exponentiated sinusoid, Conty Estevez and Kulla 2017, equation 2
+/// (KHR_materials_sheen, "Sheen distribution"): (2 + 1/alpha_g) sin(theta_h)^(1/alpha_g) / (2 pi).
+/// For alpha_g = 0 it returns the limit for N.H > 0, which is 0 (the printed code divides by zero there).
+/// @param alpha_g   square of sheen_roughness, [0, 1]
+/// @param n_dot_h   cosine of normal and half vector, [0, 1]
+/// @param sin2_theta_h  its squared sine, |N x H|^2, [0, 1]; given apart because 1 - n_dot_h^2 cancels near N.H = 1
+template <class Real>
+Real charlie_distribution(Real alpha_g, Real n_dot_h, Real sin2_theta_h) {
+  const Real p = Real(0.5) / alpha_g;
+  const Real cos2 = n_dot_h * n_dot_h;
+  // log1p keeps the digits of a small cosine that "1 - cos2" loses and that a large exponent would magnify.
+  const Real log_sin2 = select(cos2 < Real(0.25), log1p(-min(cos2, Real(0.25))), log(sin2_theta_h));
+  const Real d = (Real(1) + p) * exp(p * log_sin2) * Real(1 / pi);
+  return select(alpha_g > Real(0), d, Real(0));
+}
+
+/// The curve l(x) of the shadowing term Lambda, with its five coefficients at one alpha_g, so that they are found once a material:
+/// l(x) = a / (1 + b x^c) + d x + e, Conty Estevez and Kulla 2017, equation 3.
+template <class Real>
+struct LambdaCurve {
+  Real a, b, c, d, e;
+
+  Real l(Real x) const { return a / (Real(1) + b * pow(x, c)) + d * x + e; }
+
+  /// Lambda(cos_theta) >= 0, cos_theta in [0, 1]; the second branch mirrors the first about 0.5 (KHR_materials_sheen, lambda_sheen).
+  Real lambda(Real cos_theta) const {
+    const auto grazing = cos_theta < Real(0.5);
+    const Real curve = l(select(grazing, cos_theta, Real(1) - cos_theta));
+    return exp(select(grazing, curve, Real(2) * l(Real(0.5)) - curve));
+  }
+};
+
+/// l's coefficients as KHR_materials_sheen prints them, mixed by (1 - alpha_g)^2. Table 1 of Conty Estevez and Kulla 2017.
+template <class Real>
+LambdaCurve<Real> charlie_lambda_curve(Real alpha_g) {
+  const Real t = (Real(1) - alpha_g) * (Real(1) - alpha_g);
+  const auto mix = [&t](double x, double y) { return Real(x) * (Real(1) - t) + Real(y) * t; };
+  return {mix(21.5473, 25.3245), mix(3.82987, 3.32435), mix(0.19823, 0.16801), mix(-1.97760, -1.27393), mix(-4.32054, -4.85967)};
+}
+
+/// l's coefficients of "refined Charlie", Enterprise PBR Shading Model 2022x, sheen: w p1 + (1-w) p0 with
+/// w = -1.59612 / (1 + 0.20375 alpha^-0.55825) + 1.32805. The document prints the weights the other way round; this order is the one that
+/// reproduces its published table. The coefficients are taken from the Enterprise PBR Shading Model by Dassault Systemes, licensed
+/// CC BY-SA 4.0; see NOTICE.
+template <class Real>
+LambdaCurve<Real> refined_lambda_curve(Real alpha_g) {
+  const Real w = Real(1.32805) - Real(1.59612) / (Real(1) + Real(0.20375) * pow(alpha_g, Real(-0.55825)));
+  const auto mix = [&w](double p0, double p1) { return w * Real(p1) + (Real(1) - w) * Real(p0); };
+  return {mix(11.9095, 13.7000), mix(4.68753, 2.92754), mix(0.33467, 0.28670), mix(-2.22664, -0.81757), mix(-1.76591, -1.22466)};
+}
+
+/// Visibility of the sheen lobe times N.L, in 1/sr: G N.L / (4 N.L N.V) = 1 / ((1 + Lambda(N.V) + Lambda(N.L)) 4 N.V).
+/// Folded because the printed product is 0/0 at N.L = 0 (KHR_materials_sheen, "Sheen visibility").
+/// @param lambda_v, lambda_l  Lambda at both cosines
+/// @param n_dot_v   (0, 1]
+template <class Real>
+Real charlie_visibility_times_n_dot_l(Real lambda_v, Real lambda_l, Real n_dot_v) {
+  return Real(0.25) / ((Real(1) + lambda_v + lambda_l) * n_dot_v);
+}
+
+}  // namespace sheen::brdf

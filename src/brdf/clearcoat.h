@@ -1,0 +1,24 @@
+#pragma once
+
+#include "brdf/fresnel.h"
+#include "brdf/ggx.h"
+
+namespace sheen::brdf {
+
+/// The coat's weight k = clearcoat Fc, Fc = 0.04 + 0.96 (1 - |Nc.V|)^5: of N.V, not V.H, and of a fixed ior 1.5
+/// (KHR_materials_clearcoat, "Layering"). Everything below the coat, emission included, is multiplied by 1 - k.
+/// @param clearcoat  [0, 1]
+/// @param nc_dot_v   cosine with the coat's own normal
+template <class Real>
+Real clearcoat_weight(Real clearcoat, Real nc_dot_v) {
+  return clearcoat * (Real(0.04) + Real(0.96) * schlick_weight(nc_dot_v));
+}
+
+/// The coat's lobe D Vis in 1/sr, before its weight: GGX of alpha_c = clearcoatRoughness^2 about the coat's normal
+/// (KHR_materials_clearcoat, "Clearcoat BRDF"). Arguments as for ggx_distribution and smith_visibility.
+template <class Real>
+Real clearcoat_lobe(Real alpha_c, Real nc_dot_l, Real nc_dot_v, Real nc_dot_h, Real sin2_theta_h) {
+  return ggx_distribution(alpha_c, nc_dot_h, sin2_theta_h) * smith_visibility(alpha_c, nc_dot_l, nc_dot_v);
+}
+
+}  // namespace sheen::brdf

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace sheen::brdf {
+
+// What a formula may call. For double these are the standard ones; another number type brings its own, found by argument-dependent lookup.
+using std::abs;
+using std::exp;
+using std::log;
+using std::log1p;
+using std::max;
+using std::min;
+using std::pow;
+using std::sqrt;
+
+/// a where the condition holds, else b: formulas choose by value, not by jump, so that a batch can choose lane by lane.
+inline double select(bool condition, double a, double b) {
+  return condition ? a : b;
+}
+inline float select(bool condition, float a, float b) {
+  return condition ? a : b;
+}
+inline long double select(bool condition, long double a, long double b) {
+  return condition ? a : b;
+}
+
+inline constexpr double pi = 3.14159265358979323846;
+
+/// A linear colour, or a factor a colour channel.
+template <class Real>
+struct Rgb {
+  Real r, g, b;
+
+  friend Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+  friend Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+  friend Rgb operator*(const Rgb& a, const Real& s) { return {a.r * s, a.g * s, a.b * s}; }
+};
+
+/// The largest channel (KHR_materials_sheen, "Albedo-scaling technique").
+template <class Real>
+Real max3(const Rgb<Real>& c) {
+  return max(max(c.r, c.g), c.b);
+}
+
+}  // namespace sheen::brdf

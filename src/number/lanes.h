@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+
+namespace sheen::number {
+
+/// How many doubles a number type holds, and the way in and out of it; number::Batch has its own in batch.h.
+template <class Real>
+struct Lanes;
+
+template <>
+struct Lanes<double> {
+  static constexpr std::size_t count = 1;
+  static double load(const double* values) { return *values; }
+  static void store(double* values, double x) { *values = x; }
+  static double sum(double x) { return x; }
+};
+
+}  // namespace sheen::number
