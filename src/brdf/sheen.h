@@ -15,7 +15,7 @@ class SheenLobe {
   /// @param sheen_roughness  the user's parameter, [0, 1]; alpha_g is its square
   /// @param n_dot_v          (0, 1]
   SheenLobe(Visibility visibility, Real sheen_roughness, Real n_dot_v)
-      : visibility_(visibility), alpha_g_(sheen_roughness * sheen_roughness), n_dot_v_(n_dot_v), curve_{}, lambda_v_(Real(0)) {
+      : visibility_(visibility), alpha_g_(sheen_roughness * sheen_roughness), n_dot_v_(n_dot_v), lambda_v_(Real(0)) {
     if (visibility_ != Visibility::Ashikhmin) {
       curve_ = visibility_ == Visibility::Charlie ? charlie_lambda_curve(alpha_g_) : refined_lambda_curve(alpha_g_);
       lambda_v_ = curve_.lambda(n_dot_v);
@@ -42,7 +42,7 @@ class SheenLobe {
   Visibility visibility_;
   Real alpha_g_;
   Real n_dot_v_;
-  LambdaCurve<Real> curve_;
+  LambdaCurve<Real> curve_{};
   Real lambda_v_;
 };
 
