@@ -1,0 +1,154 @@
+// The bound and the excluded pixels: what a sample moved within the step shows must stay inside.
+
+#include <cmath>
+#include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "golden/test_scenes.h"
+
+namespace sheen::golden {
+namespace {
+
+constexpr int size = 48;
+constexpr double ymag = 1.1;
+
+scene::Scene cloth_over_floor() {
+  scene::Material m;
+  m.metallic_factor = 0.2;
+  m.roughness_factor = 0.4;
+  m.sheen.color_factor = {0.9, 0.5, 0.7};
+  m.sheen.roughness_factor = 0.3;
+  scene::Scene s = test::scene_with(test::sphere(40, 20), m, test::orthographic_at(5.0, ymag), {test::directional({0.5, 0.6, 1.0})});
+  test::add(s, test::square(0.9, -1.5), test::lambertian({0.9, 0.1, 0.1, 1.0}));
+  scene::Material pane = test::lambertian({0.1, 0.9, 0.2, 0.4});
+  pane.alpha_mode = scene::AlphaMode::Blend;
+  test::add(s, test::square(0.5, 1.5), pane, glm::rotate(glm::dmat4(1.0), 0.3, glm::dvec3(0.0, 0.0, 1.0)));
+  return s;
+}
+
+// For an orthographic camera a moved sample is a moved camera.
+image::Image rendered_with_shift(scene::Scene s, double dx, double dy) {
+  const double pixel = 2.0 * ymag / size;
+  s.cameras[0].world_from_camera = glm::translate(s.cameras[0].world_from_camera, glm::dvec3(dx * pixel, -dy * pixel, 0.0));
+  return render(s, test::settings_for(size, size));
+}
+
+TEST(Bound, HoldsWhatAnySampleWithinTheStepShows) {
+  scene::Scene s = cloth_over_floor();
+  for (const int bits : {4, 8}) {
+    Settings settings = test::settings_for(size, size, true);
+    settings.subpixel_bits = bits;
+    const image::Image golden = render(s, settings);
+    const double step = std::ldexp(1.0, -bits);
+    int excluded = 0;
+    int covered = 0;
+    for (const glm::dvec2 shift : {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(0.5, -0.9), glm::dvec2(-0.3, -0.3), glm::dvec2(1, 0)}) {
+      const image::Image moved = rendered_with_shift(s, shift.x * step, shift.y * step);
+      const bool corner = std::abs(shift.x) == 1.0 && std::abs(shift.y) == 1.0;
+      excluded = covered = 0;
+      for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+          const bool out = golden.at(x, y, golden.channel("excluded")) > 0.0f;
+          excluded += out ? 1 : 0;
+          covered += golden.at(x, y, 3) > 0.0f ? 1 : 0;
+          if (!out) {
+            EXPECT_NEAR(golden.at(x, y, 3), moved.at(x, y, 3), 1e-6) << "coverage changes at " << x << ' ' << y;
+          }
+          // Where surfaces change within the step, the bound promises the values at its corners.
+          for (int c = 0; c < 3 && (corner || !out); ++c) {
+            EXPECT_LE(std::abs(golden.at(x, y, c) - moved.at(x, y, c)), golden.at(x, y, 4 + c) * (1.0 + 1e-6))
+                << "bits " << bits << " at " << x << ' ' << y << (out ? " (excluded)" : "");
+          }
+        }
+      }
+    }
+    EXPECT_GT(excluded, 0) << "silhouettes of the sphere, the floor and the pane cross some pixel centres";
+    EXPECT_LT(excluded, 0.6 * 400.0 * 4.0 * step * size) << "only pixels whose centre is within the step of an edge: bits " << bits;
+    EXPECT_GT(covered, size * size / 2);
+  }
+}
+
+TEST(Bound, InteriorOfASmoothSurfaceIsNeverExcludedAndTight) {
+  scene::Scene s = test::scene_with(test::sphere(64, 32), test::lambertian({0.5, 0.5, 0.5, 1.0}), test::orthographic_at(5.0, 0.5),
+                                    {test::directional({0.2, 0.1, 1.0})});
+  const image::Image golden = render(s, test::settings_for(size, size, true));
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      EXPECT_EQ(golden.at(x, y, 7), 0.0f) << x << ' ' << y;
+      const double least = 1e-3 * golden.at(x, y, 0) + 2e-5;
+      EXPECT_GE(golden.at(x, y, 4), least * (1.0 - 1e-6));
+      EXPECT_LE(golden.at(x, y, 4), least + 1e-5 + 2e-4 * golden.at(x, y, 0));
+    }
+  }
+}
+
+TEST(Bound, OcclusionEdgesAreExcludedThoughCoverageStays) {
+  scene::Scene s = test::scene_with(test::square(5.0, -1.0), test::lambertian({0.2, 0.2, 0.2, 1.0}), test::orthographic_at(5.0, 1.0),
+                                    {test::directional({0.0, 0.0, 1.0})});
+  test::add(s, test::square(1.0), test::lambertian({0.9, 0.9, 0.9, 1.0}),
+            glm::translate(glm::dmat4(1.0), glm::dvec3(1.0 + 1.0 / 16.0 + 1e-4, 0.0, 0.0)));  // its edge runs beside pixel centres
+  const image::Image golden = render(s, test::settings_for(16, 16, true));
+  for (int x = 0; x < 16; ++x) {
+    EXPECT_EQ(golden.at(x, 5, 7), x == 8 ? 1.0f : 0.0f) << x;
+  }
+  EXPECT_GT(golden.at(8, 5, 4), 0.5 / 3.2) << "the bound holds both surfaces";
+}
+
+TEST(Bound, EdgesBetweenFacesOfOneSurfaceAreNotExcluded) {
+  scene::Primitive roof;  // two faces that meet at x = 1/16, beside pixel centres, with a hard edge
+  const float ridge = 1.0f / 16.0f + 1e-4f;
+  roof.positions = {{-2, -2, -1}, {ridge, -2, 0}, {ridge, 2, 0}, {-2, 2, -1}, {ridge, -2, 0}, {2, -2, -3}, {2, 2, -3}, {ridge, 2, 0}};
+  const glm::vec3 left = glm::normalize(glm::vec3(-1.0f, 0.0f, 2.0f + ridge));
+  const glm::vec3 right = glm::normalize(glm::vec3(3.0f, 0.0f, 2.0f - ridge));
+  roof.normals = {left, left, left, left, right, right, right, right};
+  roof.indices = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+  const scene::Scene s =
+      test::scene_with(roof, test::lambertian({0.9, 0.9, 0.9, 1.0}), test::orthographic_at(5.0, 1.0), {test::directional({0.0, 0.0, 1.0})});
+  const image::Image golden = render(s, test::settings_for(16, 16, true));
+  for (int x = 0; x < 16; ++x) {
+    EXPECT_EQ(golden.at(x, 5, 7), 0.0f) << x;
+  }
+  const double difference = 0.9 / 3.14159265358979 * (left.z - right.z);
+  EXPECT_GT(golden.at(8, 5, 4), difference) << "either face may be shown";
+  EXPECT_LT(golden.at(6, 5, 4), 0.01 * difference);
+}
+
+TEST(Bound, SurfacesAtOneDepthAreExcludedAndTheFirstInTheFileIsShown) {
+  scene::Scene s = test::scene_with(test::square(2.0), test::lambertian({0.2, 0.2, 0.2, 1.0}), test::camera_at(5.0),
+                                    {test::directional({0.0, 0.0, 1.0})});
+  test::add(s, test::square(2.0), test::lambertian({0.9, 0.9, 0.9, 1.0}));
+  const image::Image golden = render(s, test::settings_for(16, 15, true));
+  const double one = 0.2 / 3.14159265358979;
+  for (int x = 0; x < 16; ++x) {
+    EXPECT_EQ(golden.at(x, 4, 7), 1.0f) << x;
+    EXPECT_NEAR(golden.at(x, 4, 0), one, 1e-6);
+    EXPECT_GT(golden.at(x, 4, 4), 3.5 * one) << "the other surface's value is inside";
+  }
+  s.instances[1].world_from_local = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -0.1));
+  EXPECT_EQ(render(s, test::settings_for(16, 15, true)).at(5, 4, 7), 0.0f);
+}
+
+TEST(Bound, HoldsTheFreedomInTheLevelOfDetail) {
+  scene::Material m = test::lambertian({0.0, 0.0, 0.0, 1.0});
+  m.emissive_factor = glm::dvec3(1.0);
+  scene::Scene s = test::scene_with(test::square(1.0), m, test::orthographic_at(5.0, 1.0), {});
+  const auto checks = [](int x, int y) { return glm::ivec4(glm::ivec3((x / 4 + y / 4) % 2 * 255), 255); };
+  s.materials[0].emissive_texture = test::add_texture(s, test::picture(64, 64, checks));
+  s.materials[0].emissive_texture.transform = glm::dmat3(0.8, 0.6, 0.0, -0.6, 0.8, 0.0, 0.0, 0.0, 1.0);
+  const auto largest_bound = [&] {
+    const image::Image im = render(s, test::settings_for(32, 32, true));
+    double largest = 0.0;
+    for (int x = 4; x < 28; ++x) {
+      largest = std::max<double>(largest, im.at(x, 9, 4));
+    }
+    return largest;
+  };
+  const double mipmapped = largest_bound();
+  s.textures[0].sampler.mip = scene::MipFilter::None;
+  EXPECT_GT(mipmapped, 2.0 * largest_bound()) << "two texels a pixel leave half a level of freedom";
+}
+
+}  // namespace
+}  // namespace sheen::golden

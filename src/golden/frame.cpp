@@ -1,0 +1,37 @@
+#include "golden/frame.h"
+
+#include <algorithm>
+
+namespace sheen::golden {
+namespace {
+
+RayGenerator make_rays(const scene::Scene& scene, const scene::View& view) {
+  if (view.width < 1 || view.height < 1) {
+    throw scene::Error(scene.file, "view", "width and height must be at least 1");
+  }
+  return {scene::resolve_camera(scene, view), view.width, view.height};
+}
+
+}  // namespace
+
+Frame::Frame(const scene::Scene& scene_in, const Settings& settings_in)
+    : scene(scene_in),
+      settings(settings_in),
+      rays(make_rays(scene_in, settings_in.view)),
+      geometry(scene_in),
+      reader(scene_in, geometry, rays),
+      tracer(scene_in, geometry, reader, rays),
+      lights(prepare_lights(scene_in.lights)) {
+  const bool has_sheen = std::any_of(scene.instances.begin(), scene.instances.end(), [&](const scene::Instance& instance) {
+    return reader.layers(scene.primitives[static_cast<std::size_t>(instance.primitive)].material).sheen;
+  });
+  if (has_sheen) {
+    albedo.emplace(settings.sheen.visibility);
+  }
+}
+
+Lighting Frame::lighting(const TermFactors& factors) const {
+  return {lights.data(), lights.size(), settings.sheen, albedo ? &*albedo : nullptr, factors};
+}
+
+}  // namespace sheen::golden

@@ -1,0 +1,120 @@
+#include "golden/golden.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "golden/frame.h"
+#include "golden/tile.h"
+
+namespace sheen::golden {
+namespace {
+
+// Pixels a side of a tile: enough surfaces to fill batches, few enough that the last tiles still share out over the threads.
+constexpr int tile_size = 16;
+
+glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
+  return {c.r, c.g, c.b};
+}
+
+void store(const Pixel& pixel, bool bounds, int x, int y, image::Image& out) {
+  const auto put = [&](int channel, double value) { out.at(x, y, channel) = static_cast<float>(value); };
+  for (int c = 0; c < 3; ++c) {
+    put(c, pixel.radiance[c]);
+  }
+  put(3, pixel.coverage);
+  if (!bounds) {
+    return;
+  }
+  for (int c = 0; c < 3; ++c) {
+    put(4 + c, pixel.bound[c]);
+  }
+  put(7, pixel.excluded ? 1.0 : 0.0);
+  put(8, pixel.mirrored ? 1.0 : 0.0);
+}
+
+// Writes the terms down as the shading passes them.
+struct TermsListener {
+  static constexpr bool wants_e_l = true;
+  PixelTerms& terms;
+
+  void view(const ViewPart<double>& part) {
+    terms.n_dot_v = part.n_dot_v;
+    terms.e_v = part.e_v;
+    terms.coat_weight = part.coat_weight;
+    terms.emission = dvec3(part.emission);
+  }
+  void light(std::size_t index, const LightPart<double>& p) {
+    terms.lights.push_back({static_cast<int>(index), p.n_dot_l, p.n_dot_h, p.d, p.v, p.e_l, p.scale, p.coat_lobe, dvec3(p.sheen),
+                            dvec3(p.base), dvec3(p.coat)});
+  }
+};
+
+}  // namespace
+
+image::Image render(const scene::Scene& scene, const Settings& settings) {
+  const Frame frame(scene, settings);
+  std::vector<std::string> channels{"R", "G", "B", "A"};
+  if (settings.bounds) {
+    channels.insert(channels.end(), {"bound.R", "bound.G", "bound.B", "excluded", "mirrored"});
+  }
+  image::Image out(settings.view.width, settings.view.height, std::move(channels));
+  const int columns = (out.width + tile_size - 1) / tile_size;
+  const int rows = (out.height + tile_size - 1) / tile_size;
+  std::atomic<int> done{0};
+  const auto draw = [&](const tbb::blocked_range<int>& range) {
+    Tile tile(frame);
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const int x0 = i % columns * tile_size;
+      const int y0 = i / columns * tile_size;
+      const int x1 = std::min(x0 + tile_size, out.width);
+      const int y1 = std::min(y0 + tile_size, out.height);
+      const std::vector<Pixel> pixels = tile.render(x0, y0, x1, y1);
+      auto pixel = pixels.begin();
+      for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+          store(*pixel++, settings.bounds, x, y, out);
+        }
+      }
+      const int finished = ++done;
+      if (settings.progress) {
+        settings.progress(static_cast<double>(finished) / (static_cast<double>(columns) * rows));
+      }
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 1), draw);
+  return out;
+}
+
+PixelTerms pixel_terms(const scene::Scene& scene, const Settings& settings, int x, int y, const TermFactors& factors) {
+  const Frame frame(scene, settings);
+  const Ray ray = frame.rays.through(x + 0.5, y + 0.5);
+  Seen seen;
+  frame.tracer.trace(ray, false, seen);
+  PixelTerms terms;
+  if (seen.empty()) {
+    return terms;
+  }
+  // Whatever is blended lies in front of what is opaque.
+  const auto by_depth = [](const Hit& a, const Hit& b) { return a.t < b.t; };
+  const Hit hit = seen.blended.empty() ? *seen.nearest : *std::min_element(seen.blended.begin(), seen.blended.end(), by_depth);
+  const Placed& placed = frame.geometry.placed(hit.triangle);
+  const Surface<double> surface = frame.reader.surface(hit, ray);
+  const Layers layers = frame.reader.layers(placed.material_index);
+  terms.covered = true;
+  terms.material = placed.material->name;
+  terms.base_color = dvec3(surface.base.color);
+  terms.sheen_color = dvec3(surface.sheen_color);
+  terms.metallic = surface.base.metallic;
+  terms.roughness = std::sqrt(surface.base.alpha);
+  terms.sheen_roughness = surface.sheen_roughness;
+  terms.clearcoat = surface.clearcoat;
+  terms.clearcoat_roughness = std::sqrt(surface.coat_alpha);
+  terms.radiance = dvec3(shade(surface, layers, frame.lighting(factors), TermsListener{terms}).radiance);
+  return terms;
+}
+
+}  // namespace sheen::golden

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "scene/scene.h"
+
+namespace sheen::golden {
+
+/// A ray of the camera. The direction's length is such that the ray's parameter t is the depth along the viewing axis.
+struct Ray {
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+  double x = 0, y = 0;  ///< where it crosses the picture, in pixels from the top left corner
+};
+
+/// The rays a camera sends through a picture; the inverse of scene::clip_from_camera.
+class RayGenerator {
+ public:
+  RayGenerator(const scene::Camera& camera, int width, int height);
+
+  /// @param x, y  pixels from the top left corner; pixel centres lie at halves
+  Ray through(double x, double y) const;
+
+  /// Unit vector from a point the ray meets toward the camera.
+  glm::dvec3 toward_camera(const Ray& ray) const;
+
+  const scene::Camera& camera() const { return camera_; }
+
+ private:
+  scene::Camera camera_;
+  int width_, height_;
+  glm::dvec3 origin_, right_, up_, forward_;  // world space; right and up reach the picture's edge
+};
+
+}  // namespace sheen::golden

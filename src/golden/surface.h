@@ -1,0 +1,29 @@
+#pragma once
+
+#include "brdf/base.h"
+#include "golden/vec3.h"
+
+namespace sheen::golden {
+
+/// What shading one point needs, with every texture read: numbers only, so that a batch of points is an array of batches.
+template <class Real>
+struct Surface {
+  Vec3<Real> position;     ///< world space, metres
+  Vec3<Real> view;         ///< unit, toward the camera
+  Vec3<Real> normal;       ///< unit N: interpolated, mapped, negated on a back face
+  Vec3<Real> coat_normal;  ///< unit Nc, likewise, with the coat's own map
+  brdf::Base<Real> base;
+  brdf::Rgb<Real> sheen_color;
+  Real sheen_roughness;
+  Real clearcoat;   ///< the coat's strength, [0, 1]
+  Real coat_alpha;  ///< square of clearcoatRoughness
+  brdf::Rgb<Real> emission;
+};
+
+/// Which layers a material has; uniform over a batch.
+struct Layers {
+  bool sheen = false;
+  bool clearcoat = false;
+};
+
+}  // namespace sheen::golden

@@ -1,0 +1,243 @@
+#include "golden/surface_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+namespace sheen::golden {
+namespace {
+
+// The value at a hit of an attribute given at a primitive's vertices, in double.
+template <class Wide, class Narrow>
+Wide interpolate(const std::vector<Narrow>& values, const std::array<std::uint32_t, 3>& v, const glm::dvec3& weights) {
+  return Wide(values[v[0]]) * weights.x + Wide(values[v[1]]) * weights.y + Wide(values[v[2]]) * weights.z;
+}
+
+// The unit vector along v, or `otherwise` where v has no direction.
+glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& otherwise) {
+  const double length2 = glm::dot(v, v);
+  if (!(length2 > 1e-60) || !std::isfinite(length2)) {
+    return otherwise;
+  }
+  return v / std::sqrt(length2);
+}
+
+Vec3<double> vec3(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+brdf::Rgb<double> rgb(const glm::dvec3& c) {
+  return {c.x, c.y, c.z};
+}
+
+}  // namespace
+
+// How the triangle lies under the pixel and its neighbours: their weights on its plane, where textures need them.
+struct SurfaceReader::Footprint {
+  int count = 0;        // 0: level 0; 3: here, right, below; 9: the 3 x 3 block, row by row
+  bool beyond = false;  // a neighbour's ray never meets the plane: the coarsest level
+  double share = 0.0;   // of the range of levels, with 9
+  std::array<glm::dvec3, 9> weights{};
+};
+
+SurfaceReader::SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays)
+    : geometry_(geometry), rays_(rays), materials_(scene.materials.size()) {
+  TextureStore store(scene);
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const scene::Instance& instance : scene.instances) {
+    used[static_cast<std::size_t>(scene.primitives[static_cast<std::size_t>(instance.primitive)].material)] = true;
+  }
+  for (std::size_t i = 0; i < materials_.size(); ++i) {
+    if (used[i]) {
+      read_material(scene, store, static_cast<int>(i));
+    }
+  }
+}
+
+void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store, int index) {
+  using scene::ColorSpace;
+  const scene::Material& source = scene.materials[static_cast<std::size_t>(index)];
+  Material& m = materials_[static_cast<std::size_t>(index)];
+  m.source = &source;
+  m.layers = {source.sheen.enabled(), source.clearcoat.enabled()};
+  const auto slot = [&](const scene::TextureInfo& info, ColorSpace space) {
+    Slot s;
+    if (!info.present()) {
+      return s;
+    }
+    s.texture = store.get(info.texture, space);
+    s.texcoord = info.texcoord;
+    s.transform = info.transform;
+    if (info.texcoord < 0 || info.texcoord > 1) {
+      throw scene::Error(scene.file, "materials[" + std::to_string(index) + "]", "texCoord must be 0 or 1");
+    }
+    m.needs_lod = m.needs_lod || s.texture->needs_lod();
+    return s;
+  };
+  m.base_color = slot(source.base_color_texture, ColorSpace::Srgb);
+  m.metallic_roughness = slot(source.metallic_roughness_texture, ColorSpace::Linear);
+  m.normal = slot(source.normal_texture, ColorSpace::Linear);
+  m.emissive = slot(source.emissive_texture, ColorSpace::Srgb);
+  m.specular = slot(source.specular.factor_texture, ColorSpace::Linear);
+  m.specular_color = slot(source.specular.color_texture, ColorSpace::Srgb);
+  if (m.layers.sheen) {
+    m.sheen_color = slot(source.sheen.color_texture, ColorSpace::Srgb);
+    m.sheen_roughness = slot(source.sheen.roughness_texture, ColorSpace::Linear);
+  }
+  if (m.layers.clearcoat) {
+    m.clearcoat = slot(source.clearcoat.factor_texture, ColorSpace::Linear);
+    m.clearcoat_roughness = slot(source.clearcoat.roughness_texture, ColorSpace::Linear);
+    m.clearcoat_normal = slot(source.clearcoat.normal_texture, ColorSpace::Linear);
+  }
+}
+
+SurfaceReader::Footprint SurfaceReader::footprint(const Hit& hit, const Ray& ray, LodChoice lod) const {
+  Footprint f;
+  if (!needs_lod(geometry_.placed(hit.triangle).material_index)) {
+    return f;
+  }
+  const auto place = [&](std::size_t i, double dx, double dy) {
+    const auto met = geometry_.meet(hit.triangle, rays_.through(ray.x + dx, ray.y + dy));
+    if (!met || (rays_.camera().perspective && met->t <= 0.0)) {
+      f.beyond = true;
+    } else {
+      f.weights[i] = met->weights;
+    }
+  };
+  if (!lod.share) {
+    f.count = 3;
+    f.weights[0] = hit.weights;
+    place(1, 1.0, 0.0);
+    place(2, 0.0, 1.0);
+    return f;
+  }
+  f.count = 9;
+  f.share = *lod.share;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      place(static_cast<std::size_t>(3 * row + column), column - 1, row - 1);
+    }
+  }
+  return f;
+}
+
+glm::dvec4 SurfaceReader::read(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
+  if (!slot.texture) {
+    return glm::dvec4(1.0);
+  }
+  const scene::Primitive& primitive = *geometry_.placed(hit.triangle).primitive;
+  const auto& texcoords = primitive.texcoords[static_cast<std::size_t>(slot.texcoord)];
+  const auto v = geometry_.local_vertices(hit.triangle);
+  const auto uv_at = [&](const glm::dvec3& weights) {
+    if (texcoords.empty()) {
+      return glm::dvec2(slot.transform * glm::dvec3(0.0, 0.0, 1.0));
+    }
+    return glm::dvec2(slot.transform * glm::dvec3(interpolate<glm::dvec2>(texcoords, v, weights), 1.0));
+  };
+  constexpr double coarsest = 1000.0;  // OpenGL ES 3.0.6, table 6.10: TEXTURE_MAX_LOD
+  double lambda = -coarsest;
+  if (footprint.count != 0 && slot.texture->needs_lod()) {
+    const glm::dvec2 size = slot.texture->size();
+    if (footprint.count == 3) {
+      lambda = footprint.beyond
+                   ? coarsest
+                   : ideal_lod(uv_at(footprint.weights[0]) * size, uv_at(footprint.weights[1]) * size, uv_at(footprint.weights[2]) * size);
+    } else {
+      glm::dvec2 texels[9];
+      for (std::size_t i = 0; i < 9; ++i) {
+        texels[i] = uv_at(footprint.weights[i]) * size;
+      }
+      const LodRange range = lod_range(texels);
+      const double most = std::clamp(footprint.beyond ? coarsest : range.highest, -coarsest, coarsest);
+      const double least = std::clamp(footprint.beyond ? 0.0 : range.lowest, -coarsest, most);
+      // Below level 0 nothing changes: spend the steps where something does.
+      const double low = std::min(std::max(least, -1.0), most);
+      const double high = std::min(most, std::log2(std::max(size.x, size.y)) + 1.0);
+      lambda = low + (std::max(high, low) - low) * footprint.share;
+    }
+  }
+  return sample(*slot.texture, uv_at(hit.weights), lambda);
+}
+
+glm::dvec3 SurfaceReader::interpolated_normal(const Hit& hit) const {
+  const Placed& placed = geometry_.placed(hit.triangle);
+  const glm::dvec3 face = geometry_.face_normal(hit.triangle);
+  if (placed.primitive->normals.empty()) {
+    return face;
+  }
+  const auto local = interpolate<glm::dvec3>(placed.primitive->normals, geometry_.local_vertices(hit.triangle), hit.weights);
+  return unit_or(placed.normal_matrix * local, face);
+}
+
+// glTF 2.0, section 3.7.2.1 (bitangent = cross(normal, tangent.xyz) tangent.w) and section 3.9.3 (normalTextureInfo.scale on x and y).
+glm::dvec3 SurfaceReader::mapped_normal(const Slot& slot, double scale, const glm::dvec3& normal, const Hit& hit,
+                                        const Footprint& footprint) const {
+  const Placed& placed = geometry_.placed(hit.triangle);
+  if (!slot.texture || placed.primitive->tangents.empty()) {
+    return normal;
+  }
+  const auto tangent4 = interpolate<glm::dvec4>(placed.primitive->tangents, geometry_.local_vertices(hit.triangle), hit.weights);
+  const glm::dvec3 tangent = unit_or(placed.linear * glm::dvec3(tangent4), glm::dvec3(0.0));
+  if (tangent == glm::dvec3(0.0)) {
+    return normal;
+  }
+  const glm::dvec3 bitangent = glm::cross(normal, tangent) * tangent4.w;
+  const glm::dvec3 texel = glm::dvec3(read(slot, hit, footprint)) * 2.0 - 1.0;
+  const glm::dvec3 bent = unit_or(glm::dvec3(texel.x * scale, texel.y * scale, texel.z), glm::dvec3(0.0, 0.0, 1.0));
+  return unit_or(tangent * bent.x + bitangent * bent.y + normal * bent.z, normal);
+}
+
+Surface<double> SurfaceReader::surface(const Hit& hit, const Ray& ray, LodChoice lod) const {
+  const Placed& placed = geometry_.placed(hit.triangle);
+  const Material& m = materials_[static_cast<std::size_t>(placed.material_index)];
+  const scene::Material& source = *m.source;
+  const Footprint f = footprint(hit, ray, lod);
+  const auto v = geometry_.local_vertices(hit.triangle);
+  const auto square = [](double x) { return x * x; };
+
+  Surface<double> s{};
+  s.position = vec3(interpolate<glm::dvec3>(geometry_.positions(), geometry_.vertices(hit.triangle), hit.weights));
+  s.view = vec3(rays_.toward_camera(ray));
+  const double side = hit.front ? 1.0 : -1.0;
+  const glm::dvec3 normal = interpolated_normal(hit);
+  s.normal = vec3(mapped_normal(m.normal, source.normal_scale, normal, hit, f) * side);
+  s.coat_normal = vec3(mapped_normal(m.clearcoat_normal, source.clearcoat.normal_scale, normal, hit, f) * side);
+
+  glm::dvec3 color = glm::dvec3(source.base_color_factor) * glm::dvec3(read(m.base_color, hit, f));
+  if (!placed.primitive->colors.empty()) {
+    color *= glm::dvec3(interpolate<glm::dvec4>(placed.primitive->colors, v, hit.weights));
+  }
+  const glm::dvec4 metallic_roughness = read(m.metallic_roughness, hit, f);
+  const glm::dvec3 specular_color = source.specular.color_factor * glm::dvec3(read(m.specular_color, hit, f));
+  s.base.color = rgb(color);
+  s.base.metallic = source.metallic_factor * metallic_roughness.z;
+  s.base.alpha = square(source.roughness_factor * metallic_roughness.y);
+  s.base.dielectric_f0 = brdf::dielectric_f0(source.ior, rgb(specular_color));
+  s.base.specular = source.specular.factor * read(m.specular, hit, f).w;
+  s.emission = rgb(source.emissive_factor * glm::dvec3(read(m.emissive, hit, f)));
+  if (m.layers.sheen) {
+    s.sheen_color = rgb(source.sheen.color_factor * glm::dvec3(read(m.sheen_color, hit, f)));
+    s.sheen_roughness = source.sheen.roughness_factor * read(m.sheen_roughness, hit, f).w;
+  }
+  if (m.layers.clearcoat) {
+    s.clearcoat = source.clearcoat.factor * read(m.clearcoat, hit, f).x;
+    s.coat_alpha = square(source.clearcoat.roughness_factor * read(m.clearcoat_roughness, hit, f).y);
+  }
+  return s;
+}
+
+double SurfaceReader::opacity(const Hit& hit, const Ray& ray, LodChoice lod) const {
+  const Placed& placed = geometry_.placed(hit.triangle);
+  const Material& m = materials_[static_cast<std::size_t>(placed.material_index)];
+  double alpha = m.source->base_color_factor.w;
+  if (m.base_color.texture) {
+    alpha *= read(m.base_color, hit, footprint(hit, ray, lod)).w;
+  }
+  if (!placed.primitive->colors.empty()) {
+    alpha *= interpolate<glm::dvec4>(placed.primitive->colors, geometry_.local_vertices(hit.triangle), hit.weights).w;
+  }
+  return std::clamp(alpha, 0.0, 1.0);
+}
+
+}  // namespace sheen::golden

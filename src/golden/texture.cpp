@@ -1,0 +1,148 @@
+#include "golden/texture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace sheen::golden {
+namespace {
+
+// Texel index along one axis after wrapping; coordinates are whole doubles, so that none overflows an integer on the way.
+int wrapped(double i, int size, scene::Wrap wrap) {
+  const double n = size;
+  if (i >= 0.0 && i < n) {
+    return static_cast<int>(i);
+  }
+  switch (wrap) {
+    case scene::Wrap::ClampToEdge:
+      return static_cast<int>(std::clamp(i, 0.0, n - 1.0));
+    case scene::Wrap::Repeat:
+      return static_cast<int>(std::clamp(i - n * std::floor(i / n), 0.0, n - 1.0));
+    case scene::Wrap::MirroredRepeat:
+      break;
+  }
+  const double j = std::clamp(i - 2.0 * n * std::floor(i / (2.0 * n)), 0.0, 2.0 * n - 1.0);
+  return static_cast<int>(j < n ? j : 2.0 * n - 1.0 - j);
+}
+
+glm::dvec4 texel(const scene::Texels& level, const scene::Sampler& sampler, double i, double j) {
+  const int x = wrapped(i, level.width, sampler.wrap_s);
+  const int y = wrapped(j, level.height, sampler.wrap_t);
+  return glm::dvec4(level.rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x)]);
+}
+
+glm::dvec4 sample_level(const scene::Texels& level, const scene::Sampler& sampler, scene::Filter filter, glm::dvec2 uv) {
+  const double u = uv.x * level.width;
+  const double v = uv.y * level.height;
+  if (filter == scene::Filter::Nearest) {
+    return texel(level, sampler, std::floor(u), std::floor(v));
+  }
+  const double i = std::floor(u - 0.5);
+  const double j = std::floor(v - 0.5);
+  const double a = u - 0.5 - i;
+  const double b = v - 0.5 - j;
+  const glm::dvec4 top = texel(level, sampler, i, j) * (1.0 - a) + texel(level, sampler, i + 1.0, j) * a;
+  const glm::dvec4 bottom = texel(level, sampler, i, j + 1.0) * (1.0 - a) + texel(level, sampler, i + 1.0, j + 1.0) * a;
+  return top * (1.0 - b) + bottom * b;
+}
+
+double log2_texels(double texels) {
+  return texels > 0.0 ? std::log2(texels) : -std::numeric_limits<double>::infinity();
+}
+
+// Least and most of |difference| along one axis of the 3 x 3 block, over its rows and over either neighbour: an implementation may take its
+// quad's difference on either side and in either row.
+void extremes(const glm::dvec2 (&texels)[9], int along, int across, glm::dvec2& least, glm::dvec2& most) {
+  least = glm::dvec2(std::numeric_limits<double>::infinity());
+  most = glm::dvec2(0.0);
+  for (int line = 0; line < 3; ++line) {
+    for (int step = 0; step < 2; ++step) {
+      const int from = line * across + step * along;
+      const glm::dvec2 d = glm::abs(texels[from + along] - texels[from]);
+      least = glm::min(least, d);
+      most = glm::max(most, d);
+    }
+  }
+}
+
+}  // namespace
+
+Texture TextureStore::get(int texture, scene::ColorSpace space) {
+  const std::string element = "textures[" + std::to_string(texture) + "]";
+  if (texture < 0 || texture >= static_cast<int>(scene_.textures.size())) {
+    throw scene::Error(scene_.file, element, "does not exist");
+  }
+  const scene::Texture& source = scene_.textures[static_cast<std::size_t>(texture)];
+  if (source.picture < 0 || source.picture >= static_cast<int>(scene_.pictures.size())) {
+    throw scene::Error(scene_.file, element, "its image does not exist");
+  }
+  const bool mips = source.sampler.mip != scene::MipFilter::None;
+  auto& [levels, has_mips] = decoded_[{source.picture, space}];
+  if (levels == nullptr || (mips && !has_mips)) {
+    scene::Texels level0 = scene::decode(scene_.pictures[static_cast<std::size_t>(source.picture)], space);
+    if (level0.width <= 0 || level0.height <= 0) {
+      throw scene::Error(scene_.file, element, "its image is empty");
+    }
+    std::vector<scene::Texels> chain;
+    if (mips) {
+      chain = scene::mipmaps(std::move(level0));
+    } else {
+      chain.push_back(std::move(level0));
+    }
+    levels = std::make_shared<const std::vector<scene::Texels>>(std::move(chain));
+    has_mips = mips;
+  }
+  return {levels, source.sampler};
+}
+
+glm::dvec4 sample(const Texture& texture, glm::dvec2 uv, double lambda) {
+  using scene::Filter;
+  using scene::MipFilter;
+  const scene::Sampler& s = texture.sampler;
+  const std::vector<scene::Texels>& levels = *texture.levels;
+  if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+    uv = glm::dvec2(0.0);
+  }
+  // Section 3.8.10.3: where a smooth magnification meets an unfiltered mipmapped minification, the switch lies half a level higher.
+  const double threshold = s.mag == Filter::Linear && s.min == Filter::Nearest && s.mip != MipFilter::None ? 0.5 : 0.0;
+  if (!(lambda > threshold)) {
+    return sample_level(levels.front(), s, s.mag, uv);
+  }
+  if (s.mip == MipFilter::None) {
+    return sample_level(levels.front(), s, s.min, uv);
+  }
+  const auto last = static_cast<double>(levels.size() - 1);
+  const auto level = [&](double i) -> const scene::Texels& { return levels[static_cast<std::size_t>(std::clamp(i, 0.0, last))]; };
+  // Equation 3.24: the nearest level, halves rounding down.
+  if (s.mip == MipFilter::Nearest) {
+    return sample_level(level(std::ceil(std::min(lambda, last) + 0.5) - 1.0), s, s.min, uv);
+  }
+  if (lambda >= last) {
+    return sample_level(level(last), s, s.min, uv);
+  }
+  const double first = std::floor(lambda);
+  const double f = lambda - first;
+  return sample_level(level(first), s, s.min, uv) * (1.0 - f) + sample_level(level(first + 1.0), s, s.min, uv) * f;
+}
+
+double ideal_lod(glm::dvec2 here, glm::dvec2 right, glm::dvec2 below) {
+  return log2_texels(std::max(glm::length(right - here), glm::length(below - here)));
+}
+
+LodRange lod_range(const glm::dvec2 (&texels)[9]) {
+  glm::dvec2 least_x;
+  glm::dvec2 most_x;
+  glm::dvec2 least_y;
+  glm::dvec2 most_y;
+  extremes(texels, 1, 3, least_x, most_x);
+  extremes(texels, 3, 1, least_y, most_y);
+  const glm::dvec2 least = glm::max(least_x, least_y);
+  const glm::dvec2 most = glm::max(most_x, most_y);
+  return {ideal_lod(texels[4], texels[5], texels[7]), log2_texels(std::max(least.x, least.y)), log2_texels(most.x + most.y)};
+}
+
+}  // namespace sheen::golden

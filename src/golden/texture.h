@@ -1,0 +1,58 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "scene/scene.h"
+#include "scene/texels.h"
+
+namespace sheen::golden {
+
+/// A decoded picture with the sampler that reads it.
+struct Texture {
+  std::shared_ptr<const std::vector<scene::Texels>> levels;  ///< level 0 alone where the sampler has no mipmaps
+  scene::Sampler sampler;
+
+  /// Whether the level of detail changes what is read: with mipmaps, or where the two filters differ.
+  bool needs_lod() const { return sampler.mip != scene::MipFilter::None || sampler.mag != sampler.min; }
+  /// Size of level 0, texels.
+  glm::dvec2 size() const { return {levels->front().width, levels->front().height}; }
+};
+
+/// Decodes each picture once for each colour space it is read in.
+class TextureStore {
+ public:
+  explicit TextureStore(const scene::Scene& scene) : scene_(scene) {}
+  /// Throws scene::Error where texture or picture do not exist or are empty.
+  Texture get(int texture, scene::ColorSpace space);
+
+ private:
+  using Levels = std::shared_ptr<const std::vector<scene::Texels>>;
+  const scene::Scene& scene_;
+  std::map<std::pair<int, scene::ColorSpace>, std::pair<Levels, bool>> decoded_;  // and whether with mipmaps
+};
+
+/// The texture's value by OpenGL ES 3.0.6, section 3.8.10: filters, wrap modes, choice between magnification and minification, and mipmaps,
+/// in double.
+/// @param uv      texture coordinates, v = 0 at the picture's top row
+/// @param lambda  level of detail, log2 of texels a pixel
+glm::dvec4 sample(const Texture& texture, glm::dvec2 uv, double lambda);
+
+/// Level of detail, log2 of the texels a pixel spans: what the specification's ideal formula gives, and the least and the most that
+/// OpenGL ES 3.0.6, section 3.8.10.1, allows: any f with max(m_u, m_v) <= f <= m_u + m_v, from differences to either neighbour.
+struct LodRange {
+  double nominal = 0, lowest = 0, highest = 0;
+};
+
+/// @param texels  coordinates in texels of level 0 at the 3 x 3 pixel centres around a pixel, row by row, all on the plane of one triangle
+LodRange lod_range(const glm::dvec2 (&texels)[9]);
+
+/// The ideal level alone, from the pixel and its neighbours along +x and +y.
+double ideal_lod(glm::dvec2 here, glm::dvec2 right, glm::dvec2 below);
+
+}  // namespace sheen::golden

@@ -1,0 +1,207 @@
+#include "golden/tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <glm/common.hpp>
+
+#include "golden/shade_all.h"
+
+namespace sheen::golden {
+namespace {
+
+glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
+  return {c.r, c.g, c.b};
+}
+
+}  // namespace
+
+void Tile::add_layer(const Hit& hit, const Ray& ray, LodChoice lod) {
+  const Placed& placed = frame_.geometry.placed(hit.triangle);
+  const bool blends = placed.material->alpha_mode == scene::AlphaMode::Blend;
+  layers_.push_back({static_cast<std::uint32_t>(surfaces_.size()), blends ? frame_.reader.opacity(hit, ray, lod) : 1.0});
+  surfaces_.push_back(frame_.reader.surface(hit, ray, lod));
+  materials_.push_back(placed.material_index);
+}
+
+void Tile::add_sample(const Seen& seen, const Ray& ray, LodChoice lod) {
+  const auto first = static_cast<std::uint32_t>(layers_.size());
+  if (seen.nearest) {
+    add_layer(*seen.nearest, ray, lod);
+  }
+  for (const Hit& hit : seen.blended) {
+    add_layer(hit, ray, lod);
+  }
+  samples_.push_back({first, static_cast<std::uint32_t>(layers_.size()) - first});
+}
+
+// Also what is seen where the other of two surfaces at one depth wins. Leaves `seen` without its tie.
+void Tile::add_sample_with_tie(Seen& seen, const Ray& ray) {
+  add_sample(seen, ray);
+  if (!seen.tie) {
+    return;
+  }
+  const std::optional<Hit> nearest = std::exchange(seen.nearest, std::exchange(seen.tie, std::nullopt));
+  add_sample(seen, ray);
+  seen.nearest = nearest;
+}
+
+// Whether another surface, or none, is met within the step: another number of layers, or a depth that neither triangle's slope explains.
+// Across an edge that two triangles share, their planes meet within the step, so the gap between them is at most what both depths change.
+bool Tile::interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const {
+  if (centre.nearest.has_value() != seen.nearest.has_value() || centre.blended.size() != seen.blended.size()) {
+    return true;
+  }
+  if (!centre.nearest || centre.nearest->triangle == seen.nearest->triangle) {
+    return false;
+  }
+  const std::optional<Hit> ours_there = frame_.geometry.meet(centre.nearest->triangle, ray);
+  const std::optional<Hit> theirs_here = frame_.geometry.meet(seen.nearest->triangle, centre_ray);
+  if (!ours_there || !theirs_here) {
+    return true;
+  }
+  const double change = std::abs(ours_there->t - centre.nearest->t) + std::abs(seen.nearest->t - theirs_here->t);
+  // Twice: several small triangles may lie between the two.
+  return std::abs(seen.nearest->t - ours_there->t) > 2.0 * change + 1e-7 * std::abs(centre.nearest->t);
+}
+
+// The centre's own triangles, carried on to where another ray meets their planes.
+Seen Tile::extended(const Seen& centre, const Ray& ray) const {
+  const auto carry_on = [&](const Hit& hit) {
+    Hit carried = hit;
+    if (const std::optional<Hit> met = frame_.geometry.meet(hit.triangle, ray)) {
+      // A sliver's weights grow without limit; beyond its own size it is no longer what a rasteriser could show.
+      const glm::dvec3 w = glm::clamp(met->weights, -1.0, 2.0);
+      carried.weights = {1.0 - w.y - w.z, w.y, w.z};
+    }
+    return carried;
+  };
+  Seen out;
+  if (centre.nearest) {
+    out.nearest = carry_on(*centre.nearest);
+  }
+  for (const Hit& hit : centre.blended) {
+    out.blended.push_back(carry_on(hit));
+  }
+  return out;
+}
+
+bool Tile::any_lod(const Seen& seen) const {
+  const auto needs = [&](const Hit& h) { return frame_.reader.needs_lod(frame_.geometry.placed(h.triangle).material_index); };
+  return (seen.nearest && needs(*seen.nearest)) || std::any_of(seen.blended.begin(), seen.blended.end(), needs);
+}
+
+void Tile::plan_shifts(const Ray& centre_ray, const Seen& centre, Plan& plan) {
+  const double step = std::ldexp(1.0, -frame_.settings.subpixel_bits);
+  Seen seen;
+  for (int corner = 0; corner < 4; ++corner) {
+    const double dx = (corner & 1) != 0 ? step : -step;
+    const double dy = (corner & 2) != 0 ? step : -step;
+    const Ray ray = frame_.rays.through(centre_ray.x + dx, centre_ray.y + dy);
+    frame_.tracer.trace(ray, false, seen);
+    if (centre.empty() && seen.empty()) {
+      continue;
+    }
+    plan.excluded = plan.excluded || seen.tie || interrupted(centre_ray, centre, ray, seen);
+    add_sample_with_tie(seen, ray);
+    if (!centre.empty() && !seen.same_triangles(centre)) {
+      add_sample(extended(centre, ray), ray);
+    }
+  }
+}
+
+Tile::Plan Tile::plan(int x, int y) {
+  const Ray ray = frame_.rays.through(x + 0.5, y + 0.5);
+  const bool bounds = frame_.settings.bounds;
+  Seen seen;
+  frame_.tracer.trace(ray, bounds, seen);
+  Plan plan{static_cast<std::uint32_t>(samples_.size()), 0, 0, seen.tie.has_value() || seen.mask_uncertain};
+  if (bounds) {
+    add_sample_with_tie(seen, ray);
+    plan_shifts(ray, seen, plan);
+  } else {
+    add_sample(seen, ray);
+  }
+  plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
+  if (bounds && any_lod(seen)) {
+    for (const double share : {0.0, 0.5, 1.0}) {
+      add_sample(seen, ray, {share});
+    }
+  }
+  plan.lod_end = static_cast<std::uint32_t>(samples_.size());
+  return plan;
+}
+
+void Tile::shade_surfaces() {
+  shaded_.resize(surfaces_.size());
+  std::vector<std::uint32_t> order(surfaces_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return materials_[a] < materials_[b]; });
+  const Lighting lighting = frame_.lighting();
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin;
+    const int material = materials_[order[begin]];
+    while (end < order.size() && materials_[order[end]] == material) {
+      ++end;
+    }
+    shade_all(surfaces_.data(), order.data() + begin, end - begin, frame_.reader.layers(material), lighting, shaded_.data());
+    begin = end;
+  }
+}
+
+// rgb = a c + (1 - a) dst over black, coverage likewise.
+Tile::Composed Tile::compose(const Sample& sample) const {
+  Composed out;
+  for (std::uint32_t i = sample.first; i < sample.first + sample.count; ++i) {
+    const Shaded<double>& s = shaded_[layers_[i].surface];
+    const double a = layers_[i].opacity;
+    out.radiance = dvec3(s.radiance) * a + out.radiance * (1.0 - a);
+    out.magnitude = dvec3(s.magnitude) * a + out.magnitude * (1.0 - a);
+    out.lookup = dvec3(s.lookup) * a + out.lookup * (1.0 - a);
+    out.coverage = a + out.coverage * (1.0 - a);
+    out.mirrored = out.mirrored || s.mirrored > 0.0;
+  }
+  return out;
+}
+
+Pixel Tile::finish(const Plan& plan) const {
+  const Composed centre = compose(samples_[plan.centre]);
+  glm::dvec3 shift(0.0);
+  glm::dvec3 lod(0.0);
+  for (std::uint32_t i = plan.centre + 1; i < plan.lod_end; ++i) {
+    glm::dvec3& largest = i < plan.shifted_end ? shift : lod;
+    largest = glm::max(largest, glm::abs(compose(samples_[i]).radiance - centre.radiance));
+  }
+  Pixel pixel;
+  pixel.radiance = centre.radiance;
+  pixel.coverage = centre.coverage;
+  pixel.bound = centre.magnitude * relative_tolerance + absolute_tolerance + shift + lod + centre.lookup;
+  pixel.excluded = plan.excluded;
+  pixel.mirrored = centre.mirrored;
+  return pixel;
+}
+
+std::vector<Pixel> Tile::render(int x0, int y0, int x1, int y1) {
+  surfaces_.clear();
+  materials_.clear();
+  layers_.clear();
+  samples_.clear();
+  std::vector<Plan> plans;
+  plans.reserve(static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(y1 - y0));
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      plans.push_back(plan(x, y));
+    }
+  }
+  shade_surfaces();
+  std::vector<Pixel> pixels;
+  pixels.reserve(plans.size());
+  for (const Plan& p : plans) {
+    pixels.push_back(finish(p));
+  }
+  return pixels;
+}
+
+}  // namespace sheen::golden

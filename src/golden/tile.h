@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "golden/frame.h"
+#include "golden/shade.h"
+
+namespace sheen::golden {
+
+/// One pixel of a golden.
+struct Pixel {
+  glm::dvec3 radiance{0.0};
+  double coverage = 0.0;
+  glm::dvec3 bound{0.0};
+  bool excluded = false;
+  bool mirrored = false;
+};
+
+/// Tolerance of the shading itself, until it is derived from the rules of MODEL section 7: a share of the value and a floor in its unit.
+inline constexpr double relative_tolerance = 1e-3;
+inline constexpr double absolute_tolerance = 2e-5;
+
+/// A few pixels worked out together: first every ray is cast and every surface read, then all are shaded in batches, then composed.
+class Tile {
+ public:
+  explicit Tile(const Frame& frame) : frame_(frame) {}
+
+  /// The pixels [x0, x1) x [y0, y1), row by row.
+  std::vector<Pixel> render(int x0, int y0, int x1, int y1);
+
+ private:
+  struct LayerRef {
+    std::uint32_t surface;
+    double opacity;
+  };
+  struct Sample {  // layers back to front
+    std::uint32_t first, count;
+  };
+  struct Plan {  // samples: the centre, then the shifted ones, then the other levels of detail
+    std::uint32_t centre, shifted_end, lod_end;
+    bool excluded;
+  };
+  struct Composed {
+    glm::dvec3 radiance{0.0}, magnitude{0.0}, lookup{0.0};
+    double coverage = 0.0;
+    bool mirrored = false;
+  };
+
+  Plan plan(int x, int y);
+  void plan_shifts(const Ray& centre_ray, const Seen& centre, Plan& plan);
+  void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {});
+  void add_sample_with_tie(Seen& seen, const Ray& ray);
+  void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
+  bool interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const;
+  Seen extended(const Seen& centre, const Ray& ray) const;
+  bool any_lod(const Seen& seen) const;
+  void shade_surfaces();
+  Composed compose(const Sample& sample) const;
+  Pixel finish(const Plan& plan) const;
+
+  const Frame& frame_;
+  std::vector<Surface<double>> surfaces_;
+  std::vector<int> materials_;  // of surfaces_
+  std::vector<Shaded<double>> shaded_;
+  std::vector<LayerRef> layers_;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace sheen::golden

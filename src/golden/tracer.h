@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "golden/geometry.h"
+#include "golden/rays.h"
+#include "golden/surface_reader.h"
+
+namespace sheen::golden {
+
+/// What a ray sees.
+struct Seen {
+  std::optional<Hit> nearest;  ///< nearest opaque (or MASK, kept) surface within the clip range
+  std::optional<Hit> tie;      ///< another surface at a depth that a depth buffer may not tell from the nearest one's
+  std::vector<Hit> blended;    ///< BLEND surfaces in front of it, in drawing order
+  /// A MASK surface in front was kept or discarded by a margin that the freedom in the level of detail can turn round.
+  bool mask_uncertain = false;
+
+  void clear();
+  bool empty() const { return !nearest && blended.empty(); }
+  bool same_triangles(const Seen& other) const;
+};
+
+/// Casts rays with Embree, which is single precision, and recomputes every hit in double; near edges the triangle that the exact ray passes
+/// through is looked for.
+class Tracer {
+ public:
+  /// Builds the acceleration structure. The arguments must outlive this.
+  Tracer(const scene::Scene& scene, const Geometry& geometry, const SurfaceReader& reader, const RayGenerator& rays);
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  /// Single-sided surfaces seen from behind are invisible, MASK surfaces where alpha < cutoff too. Thread-safe; `seen` is cleared first and
+  /// given back filled, so that its memory serves the next ray.
+  /// @param judge_mask  whether to find mask_uncertain
+  void trace(const Ray& ray, bool judge_mask, Seen& seen) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sheen::golden
