@@ -1,0 +1,61 @@
+// The normals of the layers, and the view seen from each.
+
+in vec3 v_normal;
+#ifdef TANGENT
+in vec4 v_tangent;
+#endif
+#ifdef NORMAL_TEXTURE
+uniform sampler2D u_normal_texture;
+uniform float u_normal_scale;
+#ifdef NORMAL_TEXTURE_TRANSFORM
+uniform mat3 u_normal_texture_transform;
+#endif
+#endif
+#ifdef CLEARCOAT_NORMAL_TEXTURE
+uniform sampler2D u_clearcoat_normal_texture;
+uniform float u_clearcoat_normal_scale;
+#ifdef CLEARCOAT_NORMAL_TEXTURE_TRANSFORM
+uniform mat3 u_clearcoat_normal_texture_transform;
+#endif
+#endif
+
+// The interpolated normal; where it has no direction, the triangle's own, which faces the viewer on a front face.
+vec3 interpolated_normal(vec3 position) {
+    vec3 facing = normalize_or(cross(dFdx(position), dFdy(position)), vec3(0.0, 0.0, 1.0));
+#ifdef DOUBLE_SIDED
+    if (!gl_FrontFacing) facing = -facing;
+#endif
+    return normalize_or(v_normal, facing);
+}
+
+#ifdef TANGENT
+// glTF 2.0, section 3.9.3: texel * 2 - 1, x and y times the scale, in the frame (T, B, N) with B = cross(N, T) w of section 3.7.2.1.
+vec3 mapped_normal(vec3 N, vec3 texel, float scale) {
+    vec3 n = normalize_or((texel * 2.0 - 1.0) * vec3(scale, scale, 1.0), vec3(0.0, 0.0, 1.0));
+    vec3 T = normalize_or(v_tangent.xyz, vec3(0.0));
+    vec3 B = cross(N, T) * v_tangent.w;
+    return normalize_or(T * n.x + B * n.y + N * n.z, N);
+}
+#endif
+
+// A back face of a double-sided material turns its whole frame round: the final normal is negated (glTF 2.0, section 3.9.6).
+vec3 toward_viewer(vec3 N) {
+#ifdef DOUBLE_SIDED
+    return gl_FrontFacing ? N : -N;
+#else
+    return N;
+#endif
+}
+
+// What one layer sees: its normal, the view on that normal's side, and their cosine in [MIN_N_DOT_V, 1].
+struct LayerView {
+    vec3 N;
+    vec3 V;
+    float NdotV;
+};
+
+// An interpolated or mapped normal can turn away from the viewer: V is then mirrored at the normal's plane.
+LayerView layer_view(vec3 N, vec3 V) {
+    float NdotV = dot(N, V);
+    return LayerView(N, V - 2.0 * min(NdotV, 0.0) * N, clamp(abs(NdotV), MIN_N_DOT_V, 1.0));
+}

@@ -1,0 +1,10 @@
+# Writes OUTPUT, a C++ file that holds every shader of the list FILES under its file name. Run with cmake -P.
+set(text "// Written by embed_shaders.cmake from shaders/.\n#include \"renderer/shader_sources.h\"\n\nnamespace sheen::renderer {\n\n")
+string(APPEND text "const std::map<std::string, std::string>& shader_sources() {\n  static const std::map<std::string, std::string> sources{\n")
+foreach(file IN LISTS FILES)
+  get_filename_component(name "${file}" NAME)
+  file(READ "${file}" source)
+  string(APPEND text "      {\"${name}\", R\"glsl(${source})glsl\"},\n")
+endforeach()
+string(APPEND text "  };\n  return sources;\n}\n\n}  // namespace sheen::renderer\n")
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,443 @@
+#include "renderer/features.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <stdexcept>
+
+namespace sheen::renderer {
+namespace {
+
+using scene::ColorSpace;
+using scene::LightType;
+using scene::Material;
+using scene::TextureInfo;
+
+/// Every texture of a material, in the order of their units.
+struct TextureSlot {
+  const char* name;
+  const TextureInfo& (*of)(const Material&);
+  ColorSpace space;
+};
+
+constexpr std::array<TextureSlot, 11> texture_slots{{
+    {"base_color_texture", [](const Material& m) -> const TextureInfo& { return m.base_color_texture; }, ColorSpace::Srgb},
+    {"metallic_roughness_texture", [](const Material& m) -> const TextureInfo& { return m.metallic_roughness_texture; },
+     ColorSpace::Linear},
+    {"normal_texture", [](const Material& m) -> const TextureInfo& { return m.normal_texture; }, ColorSpace::Linear},
+    {"emissive_texture", [](const Material& m) -> const TextureInfo& { return m.emissive_texture; }, ColorSpace::Srgb},
+    {"specular_texture", [](const Material& m) -> const TextureInfo& { return m.specular.factor_texture; }, ColorSpace::Linear},
+    {"specular_color_texture", [](const Material& m) -> const TextureInfo& { return m.specular.color_texture; }, ColorSpace::Srgb},
+    {"sheen_color_texture", [](const Material& m) -> const TextureInfo& { return m.sheen.color_texture; }, ColorSpace::Srgb},
+    {"sheen_roughness_texture", [](const Material& m) -> const TextureInfo& { return m.sheen.roughness_texture; }, ColorSpace::Linear},
+    {"clearcoat_texture", [](const Material& m) -> const TextureInfo& { return m.clearcoat.factor_texture; }, ColorSpace::Linear},
+    {"clearcoat_roughness_texture", [](const Material& m) -> const TextureInfo& { return m.clearcoat.roughness_texture; },
+     ColorSpace::Linear},
+    {"clearcoat_normal_texture", [](const Material& m) -> const TextureInfo& { return m.clearcoat.normal_texture; }, ColorSpace::Linear},
+}};
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+const char* visibility_name(albedo::Visibility visibility) {
+  switch (visibility) {
+    case albedo::Visibility::Charlie:
+      return "charlie";
+    case albedo::Visibility::Ashikhmin:
+      return "ashikhmin";
+    case albedo::Visibility::Refined:
+      return "refined";
+  }
+  throw std::invalid_argument("unknown visibility");
+}
+
+const char* scaling_name(albedo::AlbedoScaling scaling) {
+  switch (scaling) {
+    case albedo::AlbedoScaling::Full:
+      return "full";
+    case albedo::AlbedoScaling::View:
+      return "view";
+    case albedo::AlbedoScaling::None:
+      return "none";
+    case albedo::AlbedoScaling::Literal:
+      return "literal";
+  }
+  throw std::invalid_argument("unknown albedo scaling");
+}
+
+/// Makes a plan step by step.
+class Planner {
+ public:
+  Planner(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Camera& camera, const Settings& settings)
+      : scene_(scene),
+        primitive_(primitive),
+        material_(scene.materials.at(static_cast<std::size_t>(primitive.material))),
+        settings_(settings),
+        // Without a light nothing is reflected: what is left is the emission under its coat, and coverage.
+        lit_(!scene.lights.empty()),
+        emission_(material_.emissive_factor != glm::dvec3(0.0)),
+        sheen_(lit_ && material_.sheen.enabled()),
+        clearcoat_((lit_ || emission_) && material_.clearcoat.enabled()),
+        base_color_(lit_ || material_.alpha_mode != scene::AlphaMode::Opaque) {
+    plan_.normals = lit_ || clearcoat_;
+    constants();
+    geometry(camera);
+    textures();
+    if (lit_) {
+      lights();
+    }
+    material();
+    if (sheen_) {
+      sheen();
+    }
+    files();
+    sort_features();
+  }
+
+  ShaderPlan take() { return std::move(plan_); }
+
+ private:
+  void feature(const std::string& name) { plan_.features.push_back(name); }
+  void define(const std::string& name) { plan_.defines.push_back(name); }
+  void uniform(const std::string& name) { plan_.uniforms.push_back(name); }
+
+  void constants() {
+    const bool mediump = settings_.precision == Precision::Mediump;
+    std::array<char, 32> floor{};
+    std::snprintf(floor.data(), floor.size(), "%.9e", albedo::min_n_dot_v);
+    define(std::string("MIN_N_DOT_V=") + floor.data());
+    // The largest and the smallest normal value of a half float, or values just inside a float's range.
+    define(mediump ? "LARGEST_SHADING_VALUE=65504.0" : "LARGEST_SHADING_VALUE=1.0e38");
+    define(mediump ? "SMALLEST_SHADING_VALUE=6.2e-5" : "SMALLEST_SHADING_VALUE=1.0e-37");
+    if (lit_) {
+      define(settings_.formulation == Formulation::Literal ? "FORMULATION_LITERAL" : "FORMULATION_STABLE");
+    }
+  }
+
+  void geometry(const scene::Camera& camera) {
+    uniform("u_clip_from_local");
+    feature(camera.perspective ? "perspective_camera" : "orthographic_camera");
+    if (plan_.normals) {
+      define("NORMAL");
+      if (!camera.perspective) {
+        define("ORTHOGRAPHIC");
+      }
+      uniform("u_view_from_local");
+      uniform("u_normal_from_local");
+    }
+    if (material_.double_sided) {
+      feature("double_sided");
+      if (plan_.normals) {
+        define("DOUBLE_SIDED");
+      }
+    }
+    if (base_color_ && !primitive_.colors.empty()) {
+      feature("vertex_color");
+      define("VERTEX_COLOR");
+      plan_.colors = true;
+    }
+  }
+
+  /// Whether a layer that reads this texture is drawn at all.
+  bool read(const std::string& name) const {
+    if (name == "base_color_texture") {
+      return base_color_;
+    }
+    if (name == "emissive_texture") {
+      return emission_;
+    }
+    if (name == "specular_texture" || name == "specular_color_texture") {
+      return lit_ && material_.has_ior_or_specular;
+    }
+    if (name == "sheen_color_texture" || name == "sheen_roughness_texture") {
+      return sheen_;
+    }
+    if (name == "clearcoat_texture" || name == "clearcoat_normal_texture") {
+      return clearcoat_;
+    }
+    if (name == "clearcoat_roughness_texture") {
+      return lit_ && clearcoat_;
+    }
+    return lit_;
+  }
+
+  void textures() {
+    for (const TextureSlot& slot : texture_slots) {
+      const TextureInfo& info = slot.of(material_);
+      if (!info.present() || !read(slot.name)) {
+        continue;
+      }
+      texture({slot.name, &info, slot.space, info.transform != glm::dmat3(1.0)});
+    }
+    for (std::size_t set = 0; set < 2; ++set) {
+      if (plan_.texcoords[set]) {
+        define("TEXCOORD_" + std::to_string(set));
+      }
+    }
+    if (plan_.texcoords[1]) {
+      feature("second_texcoord");
+    }
+    if (plan_.tangents) {
+      if (primitive_.tangents.empty()) {
+        throw scene::Error(scene_.file, "material '" + material_.name + "'",
+                           "its normal map needs a primitive with TANGENT (glTF 2.0, section 3.7.2.1)");
+      }
+      define("TANGENT");
+    }
+  }
+
+  void texture(const TextureUse& use) {
+    const std::string macro = upper(use.name);
+    const std::string coordinates = "v_texcoord_" + std::to_string(use.info->texcoord);
+    const scene::Sampler& sampler = scene_.textures.at(static_cast<std::size_t>(use.info->texture)).sampler;
+    feature(use.name);
+    define(macro);
+    uniform("u_" + use.name);
+    if (use.transformed) {
+      feature("texture_transform");
+      define(macro + "_TRANSFORM");
+      define(macro + "_UV=(u_" + use.name + "_transform * vec3(" + coordinates + ", 1.0)).xy");
+      uniform("u_" + use.name + "_transform");
+    } else {
+      define(macro + "_UV=" + coordinates);
+    }
+    std::string state;
+    for (const int value : {static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t), static_cast<int>(sampler.mag),
+                            static_cast<int>(sampler.min), static_cast<int>(sampler.mip)}) {
+      state += (state.empty() ? "" : ", ") + std::to_string(value);
+    }
+    define(macro + "_SAMPLER=" + state);
+    plan_.texcoords[use.info->texcoord] = true;
+    if (use.name == "normal_texture" || use.name == "clearcoat_normal_texture") {
+      plan_.tangents = true;
+      uniform(use.name == "normal_texture" ? "u_normal_scale" : "u_clearcoat_normal_scale");
+    }
+    plan_.textures.push_back(use);
+  }
+
+  void lights() {
+    define("LIT");
+    const auto any = [&](LightType type) {
+      return std::any_of(scene_.lights.begin(), scene_.lights.end(), [&](const scene::Light& light) { return light.type == type; });
+    };
+    if (any(LightType::Directional)) {
+      feature("directional_light"), define("LIGHT_DIRECTIONAL");
+    }
+    if (any(LightType::Point)) {
+      feature("point_light"), define("LIGHT_POINT");
+    }
+    if (any(LightType::Spot)) {
+      feature("spot_light"), define("LIGHT_SPOT");
+    }
+    if (scene_.lights.size() > static_cast<std::size_t>(max_uniform_lights)) {
+      feature("many_lights");
+      define("MANY_LIGHTS");
+      plan_.light_texture = true;
+    } else {
+      define("MAX_UNIFORM_LIGHTS=" + std::to_string(max_uniform_lights));
+    }
+    uniform("u_light_count");
+    uniform("u_lights");
+  }
+
+  void material() {
+    if (base_color_) {
+      define("BASE_COLOR");
+      uniform("u_base_color_factor");
+    }
+    if (lit_) {
+      feature("base");
+      uniform("u_metallic_factor");
+      uniform("u_roughness_factor");
+      if (material_.has_ior_or_specular) {
+        feature("specular");
+        define("SPECULAR");
+        for (const char* name : {"u_specular_f0", "u_specular_factor", "u_specular_color_factor"}) {
+          uniform(name);
+        }
+      }
+    }
+    if (clearcoat_) {
+      feature("clearcoat");
+      define("CLEARCOAT");
+      uniform("u_clearcoat_factor");
+      if (lit_) {
+        uniform("u_clearcoat_roughness_factor");
+      }
+    }
+    if (emission_) {
+      feature("emission");
+      define("EMISSION");
+      uniform("u_emissive_factor");
+    }
+    if (material_.alpha_mode == scene::AlphaMode::Mask) {
+      feature("alpha_mask");
+      define("ALPHA_MASK");
+      uniform("u_alpha_cutoff");
+    }
+    if (material_.alpha_mode == scene::AlphaMode::Blend) {
+      feature("alpha_blend");
+      define("ALPHA_BLEND");
+    }
+  }
+
+  void sheen() {
+    const std::string visibility = visibility_name(settings_.sheen.visibility);
+    feature("sheen");
+    feature("sheen_visibility_" + visibility);
+    define("SHEEN");
+    define("VISIBILITY_" + upper(visibility));
+    if (settings_.formulation == Formulation::Stable) {
+      // alpha_g = 9e-10: the lobe is a line thinner than any pixel, and 1 / alpha_g is still far inside a float's range.
+      define("SMALLEST_SHEEN_ROUGHNESS=3.0e-5");
+    }
+    uniform("u_sheen_color_factor");
+    uniform("u_sheen_roughness_factor");
+    define("ALBEDO_SCALING_" + upper(scaling_name(settings_.sheen.scaling)));
+    if (settings_.sheen.scaling == albedo::AlbedoScaling::None) {
+      return;
+    }
+    feature("albedo_scaling");
+    if (settings_.albedo_source == AlbedoSource::Table) {
+      feature("sheen_albedo_table");
+      plan_.sheen_albedo_table = true;
+      uniform("u_sheen_albedo");
+      return;
+    }
+    if (settings_.sheen.visibility == albedo::Visibility::Refined) {
+      throw std::invalid_argument("the refined visibility has no fit of its directional albedo; take the table");
+    }
+    feature("sheen_albedo_fit");
+  }
+
+  void files() {
+    const auto add = [&](const std::string& name, bool shading) { plan_.fragment_files.push_back({name, shading}); };
+    add("common.glsl", false);
+    if (!plan_.textures.empty()) {
+      add("textures.glsl", false);
+    }
+    add("material.glsl", false);
+    if (plan_.normals) {
+      add("shading_frame.glsl", false);
+    }
+    if (lit_) {
+      add("lights.glsl", false);
+    }
+    if (plan_.normals) {
+      add("fresnel.glsl", true);
+    }
+    if (lit_) {
+      add("specular_ggx.glsl", true);
+      add("base.glsl", true);
+    }
+    if (sheen_) {
+      const albedo::Visibility visibility = settings_.sheen.visibility;
+      const std::string file = "sheen_visibility_" + std::string(visibility_name(visibility)) + ".glsl";
+      add("sheen_distribution.glsl", true);
+      if (visibility == albedo::Visibility::Ashikhmin) {
+        add(file, true);
+      } else {
+        add("sheen_coefficients.glsl", true);
+        add(file, true);
+        add("sheen_lambda.glsl", true);
+      }
+      add("sheen.glsl", true);
+      if (settings_.sheen.scaling != albedo::AlbedoScaling::None) {
+        add(plan_.sheen_albedo_table ? "sheen_albedo.glsl" : "sheen_albedo_fit.glsl", false);
+        add("albedo_scaling.glsl", false);
+      }
+    }
+    if (clearcoat_) {
+      add("clearcoat.glsl", true);
+    }
+    add("main.frag", false);
+  }
+
+  /// Features in the order of feature_names(), each once.
+  void sort_features() {
+    std::vector<std::string> sorted;
+    for (const std::string& name : feature_names()) {
+      if (plan_.has(name)) {
+        sorted.push_back(name);
+      }
+    }
+    plan_.features = std::move(sorted);
+  }
+
+  const scene::Scene& scene_;
+  const scene::Primitive& primitive_;
+  const Material& material_;
+  const Settings& settings_;
+  bool lit_;
+  bool emission_;
+  bool sheen_;
+  bool clearcoat_;
+  bool base_color_;
+  ShaderPlan plan_;
+};
+
+}  // namespace
+
+bool ShaderPlan::has(const std::string& feature) const {
+  return std::find(features.begin(), features.end(), feature) != features.end();
+}
+
+const std::vector<std::string>& feature_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"perspective_camera",
+                                 "orthographic_camera",
+                                 "directional_light",
+                                 "point_light",
+                                 "spot_light",
+                                 "many_lights",
+                                 "base",
+                                 "specular",
+                                 "sheen",
+                                 "sheen_visibility_charlie",
+                                 "sheen_visibility_ashikhmin",
+                                 "sheen_visibility_refined",
+                                 "albedo_scaling",
+                                 "sheen_albedo_table",
+                                 "sheen_albedo_fit",
+                                 "clearcoat",
+                                 "emission",
+                                 "alpha_mask",
+                                 "alpha_blend",
+                                 "double_sided",
+                                 "vertex_color",
+                                 "second_texcoord",
+                                 "texture_transform"};
+    for (const TextureSlot& slot : texture_slots) {
+      all.emplace_back(slot.name);
+    }
+    return all;
+  }();
+  return names;
+}
+
+ShaderPlan plan_shader(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Camera& camera,
+                       const Settings& settings) {
+  return Planner(scene, primitive, camera, settings).take();
+}
+
+std::vector<std::string> texture_units(const std::vector<ShaderPlan>& plans) {
+  std::vector<std::string> units;
+  const auto any = [&](auto&& holds) { return std::any_of(plans.begin(), plans.end(), holds); };
+  for (const TextureSlot& slot : texture_slots) {
+    if (any([&](const ShaderPlan& plan) { return plan.has(slot.name); })) {
+      units.emplace_back(slot.name);
+    }
+  }
+  if (any([](const ShaderPlan& plan) { return plan.sheen_albedo_table; })) {
+    units.emplace_back("sheen_albedo");
+  }
+  if (any([](const ShaderPlan& plan) { return plan.light_texture; })) {
+    units.emplace_back("lights");
+  }
+  return units;
+}
+
+}  // namespace sheen::renderer

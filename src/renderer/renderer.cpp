@@ -1,0 +1,262 @@
+#include "renderer/renderer.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "gles/objects.h"
+#include "renderer/assembly.h"
+#include "renderer/features.h"
+#include "renderer/geometry.h"
+#include "renderer/lights.h"
+#include "renderer/program.h"
+#include "renderer/target.h"
+#include "renderer/textures.h"
+
+namespace sheen::renderer {
+
+namespace {
+
+/// What outlives a scene: programs by their source, tables by their visibility, the last target.
+struct Resources {
+  explicit Resources(gles::Context& context_) : context(context_) {}
+
+  const Program& program(const ShaderPlan& plan, const Settings& settings) {
+    const ShaderText text = assemble(plan, settings);
+    const auto found = programs.find(text.fragment + text.vertex);
+    if (found != programs.end()) {
+      return found->second;
+    }
+    return programs.emplace(text.fragment + text.vertex, Program(context.gl(), text)).first->second;
+  }
+
+  GLuint table(albedo::Visibility visibility) {
+    auto found = tables.find(visibility);
+    if (found == tables.end()) {
+      found = tables.emplace(visibility, upload_table(context.gl(), albedo::build_table(visibility))).first;
+    }
+    return found->second.name();
+  }
+
+  const Target& target_of(int width, int height) {
+    if (!target || target->width() != width || target->height() != height) {
+      target.reset();
+      target.emplace(context, width, height);
+    }
+    return *target;
+  }
+
+  gles::Context& context;
+  std::map<std::string, Program> programs;
+  std::map<albedo::Visibility, gles::Texture> tables;
+  std::optional<Target> target;
+};
+
+/// One primitive of the scene, ready to be drawn.
+struct Drawable {
+  const scene::Material* material = nullptr;
+  ShaderPlan plan;
+  const Program* program = nullptr;
+  std::optional<Geometry> geometry;
+};
+
+void set_material(const Program& program, const scene::Material& material) {
+  const double reflected = (1.0 - material.ior) / (1.0 + material.ior);
+  program.set("u_base_color_factor", material.base_color_factor);
+  program.set("u_metallic_factor", material.metallic_factor);
+  program.set("u_roughness_factor", material.roughness_factor);
+  program.set("u_normal_scale", material.normal_scale);
+  program.set("u_specular_f0", reflected * reflected);
+  program.set("u_specular_factor", material.specular.factor);
+  program.set("u_specular_color_factor", material.specular.color_factor);
+  program.set("u_sheen_color_factor", material.sheen.color_factor);
+  program.set("u_sheen_roughness_factor", material.sheen.roughness_factor);
+  program.set("u_clearcoat_factor", material.clearcoat.factor);
+  program.set("u_clearcoat_roughness_factor", material.clearcoat.roughness_factor);
+  program.set("u_clearcoat_normal_scale", material.clearcoat.normal_scale);
+  program.set("u_emissive_factor", material.emissive_factor);
+  program.set("u_alpha_cutoff", material.alpha_cutoff);
+}
+
+/// Draws one scene; lives for one call.
+class SceneDraw {
+ public:
+  SceneDraw(Resources& resources, const scene::Scene& scene, const Settings& settings)
+      : resources_(resources),
+        gl_(resources.context.gl()),
+        scene_(scene),
+        settings_(settings),
+        camera_(scene::resolve_camera(scene, settings.view)),
+        view_from_world_(scene::camera_from_world(camera_)),
+        lights_(pack_lights(scene.lights, view_from_world_)),
+        pictures_(gl_) {
+    prepare();
+  }
+
+  image::Image draw() {
+    const Target& target = resources_.target_of(settings_.view.width, settings_.view.height);
+    target.begin();
+    gl_.Enable(GL_DEPTH_TEST);
+    gl_.DepthFunc(GL_LESS);
+    gl_.Disable(GL_BLEND);
+    gl_.CullFace(GL_BACK);
+    for (const scene::Instance& instance : scene_.instances) {
+      const Drawable& drawable = drawables_.at(instance.primitive);
+      if (drawable.material->alpha_mode == scene::AlphaMode::Blend) {
+        continue;
+      }
+      set_up(drawable, instance);
+      drawable.geometry->draw(gl_);
+    }
+    draw_blended();
+    gles::check(gl_, "drawing " + scene_.file);
+    return target.read();
+  }
+
+ private:
+  glm::dmat4 view_from_local(const scene::Instance& instance) const {
+    const Geometry& geometry = *drawables_.at(instance.primitive).geometry;
+    return glm::translate(view_from_world_ * instance.world_from_local, geometry.origin());
+  }
+
+  void prepare() {
+    std::vector<ShaderPlan> plans;
+    std::vector<Box> boxes;
+    std::vector<glm::dmat4> matrices;
+    for (const scene::Instance& instance : scene_.instances) {
+      const auto [place, fresh] = drawables_.try_emplace(instance.primitive);
+      Drawable& drawable = place->second;
+      if (fresh) {
+        const scene::Primitive& primitive = scene_.primitives.at(static_cast<std::size_t>(instance.primitive));
+        drawable.material = &scene_.materials.at(static_cast<std::size_t>(primitive.material));
+        drawable.plan = plan_shader(scene_, primitive, camera_, settings_);
+        drawable.program = &resources_.program(drawable.plan, settings_);
+        drawable.geometry.emplace(gl_, scene_, primitive, drawable.plan);
+        plans.push_back(drawable.plan);
+      }
+      boxes.push_back(drawable.geometry->box());
+      matrices.push_back(view_from_local(instance));
+    }
+    const double aspect = static_cast<double>(settings_.view.width) / static_cast<double>(settings_.view.height);
+    clip_from_view_ = scene::clip_from_camera(tighten_depth_range(camera_, boxes, matrices), aspect);
+    units_ = texture_units(plans);
+    GLint available = 0;
+    gl_.GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &available);
+    if (units_.size() > static_cast<std::size_t>(available)) {
+      throw gles::Error(scene_.file + " needs " + std::to_string(units_.size()) + " texture units, this driver has " +
+                        std::to_string(available));
+    }
+    if (std::find(units_.begin(), units_.end(), "lights") != units_.end()) {
+      light_texture_.emplace(upload_lights(gl_, lights_));
+    }
+  }
+
+  /// Binds a texture to the unit of that name and tells the program.
+  void bind(const Program& program, const std::string& name, GLuint texture) const {
+    const auto unit = static_cast<int>(std::find(units_.begin(), units_.end(), name) - units_.begin());
+    gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    gl_.BindTexture(GL_TEXTURE_2D, texture);
+    program.set("u_" + name, unit);
+  }
+
+  void set_up(const Drawable& drawable, const scene::Instance& instance) {
+    const Program& program = *drawable.program;
+    program.use();
+    set_material(program, *drawable.material);
+    // Uploading binds to the active unit, so everything is made before anything is bound to its own.
+    std::vector<GLuint> textures;
+    for (const TextureUse& use : drawable.plan.textures) {
+      textures.push_back(pictures_.texture(scene_, use));
+    }
+    const GLuint table = drawable.plan.sheen_albedo_table ? resources_.table(settings_.sheen.visibility) : 0;
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+      const TextureUse& use = drawable.plan.textures[i];
+      bind(program, use.name, textures[i]);
+      if (use.transformed) {
+        program.set("u_" + use.name + "_transform", use.info->transform);
+      }
+    }
+    if (table != 0) {
+      bind(program, "sheen_albedo", table);
+    }
+    program.set("u_light_count", static_cast<int>(scene_.lights.size()));
+    if (drawable.plan.light_texture) {
+      bind(program, "lights", light_texture_->name());
+    } else {
+      program.set("u_lights", lights_);
+    }
+    const glm::dmat4 matrix = view_from_local(instance);
+    program.set("u_clip_from_local", clip_from_view_ * matrix);
+    program.set("u_view_from_local", matrix);
+    program.set("u_normal_from_local", normal_matrix(matrix));
+    gl_.FrontFace(instance.mirrored() ? GL_CW : GL_CCW);
+    drawable.material->double_sided ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
+  }
+
+  /// Back to front by triangle; neighbours in the order that belong to one instance go in one draw.
+  void draw_blended() {
+    const std::vector<scene::BlendTriangle> order = scene::blend_order(scene_, camera_);
+    if (order.empty()) {
+      return;
+    }
+    if (!resources_.context.info().desktop && gl_.EXT_float_blend == 0) {
+      throw gles::Error(resources_.context.info().renderer + " lacks GL_EXT_float_blend: it cannot blend into 32-bit floats");
+    }
+    gl_.DepthMask(GL_FALSE);
+    gl_.Enable(GL_BLEND);
+    gl_.BlendEquation(GL_FUNC_ADD);
+    gl_.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    std::vector<std::uint32_t> triangles;
+    for (std::size_t begin = 0; begin < order.size(); begin += triangles.size()) {
+      triangles.clear();
+      for (std::size_t i = begin; i < order.size() && order[i].instance == order[begin].instance; ++i) {
+        triangles.push_back(order[i].triangle);
+      }
+      const scene::Instance& instance = scene_.instances.at(order[begin].instance);
+      const Drawable& drawable = drawables_.at(instance.primitive);
+      set_up(drawable, instance);
+      drawable.geometry->draw(gl_, triangles);
+    }
+    gl_.Disable(GL_BLEND);
+    gl_.DepthMask(GL_TRUE);
+  }
+
+  Resources& resources_;
+  const gles::Functions& gl_;
+  const scene::Scene& scene_;
+  const Settings& settings_;
+  scene::Camera camera_;
+  glm::dmat4 view_from_world_;
+  glm::dmat4 clip_from_view_{1.0};
+  std::vector<glm::vec4> lights_;
+  std::map<int, Drawable> drawables_;
+  std::vector<std::string> units_;
+  Pictures pictures_;
+  std::optional<gles::Texture> light_texture_;
+};
+
+}  // namespace
+
+struct Renderer::Impl : Resources {
+  using Resources::Resources;
+};
+
+Renderer::Renderer(gles::Context& context) : impl_(std::make_unique<Impl>(context)) {}
+
+Renderer::~Renderer() {
+  try {
+    const gles::CurrentScope scope(impl_->context);
+    impl_.reset();
+  } catch (const gles::Error&) {
+    // A context that can no longer be made current has taken its objects with it.
+  }
+}
+
+image::Image Renderer::render(const scene::Scene& scene, const Settings& settings) {
+  const gles::CurrentScope scope(impl_->context);
+  return SceneDraw(*impl_, scene, settings).draw();
+}
+
+}  // namespace sheen::renderer

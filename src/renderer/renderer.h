@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "albedo/sheen_model.h"
+#include "gles/context.h"
+#include "image/image.h"
+#include "scene/scene.h"
+#include "scene/view.h"
+
+namespace sheen::renderer {
+
+enum class Precision { Highp, Mediump };
+/// The specification's printed shader code, or the same mathematics in a form that keeps its digits.
+enum class Formulation { Literal, Stable };
+/// Where the shader takes E from.
+enum class AlbedoSource { Table, Fit };
+
+struct Settings {
+  scene::View view;
+  albedo::SheenModel sheen;
+  Precision precision = Precision::Highp;
+  Formulation formulation = Formulation::Stable;
+  AlbedoSource albedo_source = AlbedoSource::Table;
+};
+
+/// What a scene requires of the renderer, and no more: what is absent stands in `omitted` alone.
+struct Requirements {
+  std::vector<std::string> features;       ///< "sheen", "clearcoat", "normal_map", ...
+  std::vector<std::string> defines;        ///< every macro any of the scene's shaders is compiled with
+  std::vector<std::string> tables;         ///< "sheen_albedo:charlie"
+  std::vector<std::string> uniforms;       ///< active uniforms
+  std::vector<std::string> texture_units;  ///< "0: base_color_texture"
+  std::vector<std::string> omitted;        ///< features the renderer knows and this scene does not use
+};
+
+/// Needs no GL context: derived from the scene, by the same code that assembles the shaders.
+Requirements requirements(const scene::Scene& scene, const Settings& settings);
+
+/// The GL ES 3 renderer. Programs and tables are made when a scene first needs them and kept for the next.
+class Renderer {
+ public:
+  /// The context must stay alive; it is made current by every call.
+  explicit Renderer(gles::Context& context);
+  ~Renderer();
+
+  /// Draws into a 32-bit float target: channels R G B A, radiance over black, rows from the top. Throws gles::Error, scene::Error.
+  image::Image render(const scene::Scene& scene, const Settings& settings);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sheen::renderer

@@ -1,0 +1,83 @@
+#include "renderer/textures.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace sheen::renderer {
+namespace {
+
+constexpr std::size_t light_texels_a_row = 1024;
+constexpr int mip_rows = 16;  // MIP_ROWS of shaders/textures.glsl, which says how the levels lie
+
+void check_texture_size(const gles::Functions& gl, const std::string& what, int width, int height) {
+  GLint largest = 0;
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (width > largest || height > largest) {
+    throw gles::Error(what + " is " + std::to_string(width) + " x " + std::to_string(height) + "; this driver takes textures up to " +
+                      std::to_string(largest));
+  }
+}
+
+/// Binds a texture that nothing filters but the shader.
+void bind_unfiltered(const gles::Functions& gl, GLuint name) {
+  gl.BindTexture(GL_TEXTURE_2D, name);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+}
+
+}  // namespace
+
+GLuint Pictures::texture(const scene::Scene& scene, const TextureUse& use) {
+  const scene::Texture& texture = scene.textures.at(static_cast<std::size_t>(use.info->texture));
+  const scene::Picture& picture = scene.pictures.at(static_cast<std::size_t>(texture.picture));
+  const bool mipmapped = texture.sampler.mip != scene::MipFilter::None;
+  const auto [place, fresh] = textures_.try_emplace(Key{texture.picture, use.space, mipmapped}, *gl_);
+  if (!fresh) {
+    return place->second.name();
+  }
+  scene::Texels texels = scene::decode(picture, use.space);
+  const int columns = mipmapped ? picture.width + (picture.width + 1) / 2 : picture.width;
+  const int rows = mipmapped ? picture.height + mip_rows : picture.height;
+  check_texture_size(*gl_, scene.file + ": picture '" + picture.name + "'" + (mipmapped ? ", with its mipmaps beside it," : ""), columns,
+                     rows);
+  bind_unfiltered(*gl_, place->second.name());
+  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, columns, rows, 0, GL_RGBA, GL_FLOAT, mipmapped ? nullptr : texels.rgba.data());
+  if (mipmapped) {
+    const std::vector<scene::Texels> levels = scene::mipmaps(std::move(texels));
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      const int x = level == 0 ? 0 : picture.width;
+      const int y = level == 0 ? 0 : picture.height - (picture.height >> (level - 1)) + static_cast<int>(level) - 1;
+      gl_->TexSubImage2D(GL_TEXTURE_2D, 0, x, y, levels[level].width, levels[level].height, GL_RGBA, GL_FLOAT, levels[level].rgba.data());
+    }
+  }
+  gles::check(*gl_, "uploading picture '" + picture.name + "'");
+  return place->second.name();
+}
+
+gles::Texture upload_table(const gles::Functions& gl, const albedo::Table& table) {
+  gles::Texture texture(gl);
+  check_texture_size(gl, "the table of E", table.width, table.height);
+  bind_unfiltered(gl, texture.name());
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, table.width, table.height, 0, GL_RED, GL_FLOAT, table.values.data());
+  gles::check(gl, "uploading the table of E");
+  return texture;
+}
+
+gles::Texture upload_lights(const gles::Functions& gl, std::vector<glm::vec4> vectors) {
+  const std::size_t rows = (vectors.size() + light_texels_a_row - 1) / light_texels_a_row;
+  vectors.resize(rows * light_texels_a_row, glm::vec4(0.0f));
+  check_texture_size(gl, "the table of lights", static_cast<int>(light_texels_a_row), static_cast<int>(rows));
+  gles::Texture texture(gl);
+  bind_unfiltered(gl, texture.name());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, static_cast<GLsizei>(light_texels_a_row), static_cast<GLsizei>(rows), 0, GL_RGBA, GL_FLOAT,
+                vectors.data());
+  gles::check(gl, "uploading the lights");
+  return texture;
+}
+
+}  // namespace sheen::renderer
