@@ -6,36 +6,14 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "renderer/texture_slots.h"
+
 namespace sheen::renderer {
 namespace {
 
-using scene::ColorSpace;
 using scene::LightType;
 using scene::Material;
 using scene::TextureInfo;
-
-/// Every texture of a material, in the order of their units.
-struct TextureSlot {
-  const char* name;
-  const TextureInfo& (*of)(const Material&);
-  ColorSpace space;
-};
-
-constexpr std::array<TextureSlot, 11> texture_slots{{
-    {"base_color_texture", [](const Material& m) -> const TextureInfo& { return m.base_color_texture; }, ColorSpace::Srgb},
-    {"metallic_roughness_texture", [](const Material& m) -> const TextureInfo& { return m.metallic_roughness_texture; },
-     ColorSpace::Linear},
-    {"normal_texture", [](const Material& m) -> const TextureInfo& { return m.normal_texture; }, ColorSpace::Linear},
-    {"emissive_texture", [](const Material& m) -> const TextureInfo& { return m.emissive_texture; }, ColorSpace::Srgb},
-    {"specular_texture", [](const Material& m) -> const TextureInfo& { return m.specular.factor_texture; }, ColorSpace::Linear},
-    {"specular_color_texture", [](const Material& m) -> const TextureInfo& { return m.specular.color_texture; }, ColorSpace::Srgb},
-    {"sheen_color_texture", [](const Material& m) -> const TextureInfo& { return m.sheen.color_texture; }, ColorSpace::Srgb},
-    {"sheen_roughness_texture", [](const Material& m) -> const TextureInfo& { return m.sheen.roughness_texture; }, ColorSpace::Linear},
-    {"clearcoat_texture", [](const Material& m) -> const TextureInfo& { return m.clearcoat.factor_texture; }, ColorSpace::Linear},
-    {"clearcoat_roughness_texture", [](const Material& m) -> const TextureInfo& { return m.clearcoat.roughness_texture; },
-     ColorSpace::Linear},
-    {"clearcoat_normal_texture", [](const Material& m) -> const TextureInfo& { return m.clearcoat.normal_texture; }, ColorSpace::Linear},
-}};
 
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -385,59 +363,9 @@ bool ShaderPlan::has(const std::string& feature) const {
   return std::find(features.begin(), features.end(), feature) != features.end();
 }
 
-const std::vector<std::string>& feature_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all{"perspective_camera",
-                                 "orthographic_camera",
-                                 "directional_light",
-                                 "point_light",
-                                 "spot_light",
-                                 "many_lights",
-                                 "base",
-                                 "specular",
-                                 "sheen",
-                                 "sheen_visibility_charlie",
-                                 "sheen_visibility_ashikhmin",
-                                 "sheen_visibility_refined",
-                                 "albedo_scaling",
-                                 "sheen_albedo_table",
-                                 "sheen_albedo_fit",
-                                 "clearcoat",
-                                 "emission",
-                                 "alpha_mask",
-                                 "alpha_blend",
-                                 "double_sided",
-                                 "vertex_color",
-                                 "second_texcoord",
-                                 "texture_transform"};
-    for (const TextureSlot& slot : texture_slots) {
-      all.emplace_back(slot.name);
-    }
-    return all;
-  }();
-  return names;
-}
-
 ShaderPlan plan_shader(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Camera& camera,
                        const Settings& settings) {
   return Planner(scene, primitive, camera, settings).take();
-}
-
-std::vector<std::string> texture_units(const std::vector<ShaderPlan>& plans) {
-  std::vector<std::string> units;
-  const auto any = [&](auto&& holds) { return std::any_of(plans.begin(), plans.end(), holds); };
-  for (const TextureSlot& slot : texture_slots) {
-    if (any([&](const ShaderPlan& plan) { return plan.has(slot.name); })) {
-      units.emplace_back(slot.name);
-    }
-  }
-  if (any([](const ShaderPlan& plan) { return plan.sheen_albedo_table; })) {
-    units.emplace_back("sheen_albedo");
-  }
-  if (any([](const ShaderPlan& plan) { return plan.light_texture; })) {
-    units.emplace_back("lights");
-  }
-  return units;
 }
 
 }  // namespace sheen::renderer
