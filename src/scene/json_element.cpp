@@ -211,7 +211,8 @@ std::optional<Element> Element::child(const char* key) const {
   if (!value->is_object()) {
     fail(key, std::string("must be an object, not ") + value->type_name());
   }
-  Element result(*this, *value);
+  Element result = *this;
+  result.value_ = value;
   result.path_ += std::string(key) + ".";
   result.root_ = false;
   return result;
@@ -238,7 +239,8 @@ std::vector<Element> Element::children(const char* key) const {
     if (!item.is_object()) {
       fail(name.substr(path_.size()).c_str(), std::string("must be an object, not ") + item.type_name());
     }
-    Element element(*this, item);
+    Element element = *this;
+    element.value_ = &item;
     element.root_ = false;
     if (root_) {
       const auto given = item.find("name");

@@ -80,7 +80,6 @@ class Element {
   const std::string& file() const { return *file_; }
 
  private:
-  Element(const Element& parent, const nlohmann::json& value) : Element(parent) { value_ = &value; }
   const nlohmann::json* find(const char* key) const;
   const nlohmann::json& require(const char* key) const;
   double checked_number(const char* key, const nlohmann::json& value, const Range& range) const;

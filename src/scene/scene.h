@@ -143,20 +143,20 @@ enum class LightType { Directional, Point, Spot };
 struct Light {
   LightType type = LightType::Directional;
   glm::dvec3 color{1.0};
-  double intensity = 1.0;                                   ///< lux (directional) or candela
-  double range = std::numeric_limits<double>::infinity();   ///< metres
-  double inner_cone = 0.0;                                  ///< radians
-  double outer_cone = 0.7853981633974483;                   ///< radians
-  glm::dvec3 position{0.0};                                 ///< point and spot
-  glm::dvec3 direction{0.0, 0.0, -1.0};                     ///< unit, the way the light travels; directional and spot
+  double intensity = 1.0;                                  ///< lux (directional) or candela
+  double range = std::numeric_limits<double>::infinity();  ///< metres
+  double inner_cone = 0.0;                                 ///< radians
+  double outer_cone = 0.7853981633974483;                  ///< radians
+  glm::dvec3 position{0.0};                                ///< point and spot
+  glm::dvec3 direction{0.0, 0.0, -1.0};                    ///< unit, the way the light travels; directional and spot
 };
 
 struct Camera {
   std::string name;
   glm::dmat4 world_from_camera{1.0};  ///< rigid: rotation and translation; looks along -Z, +Y up
   bool perspective = true;
-  double yfov = 0.7853981633974483;                       ///< radians, perspective
-  double ymag = 1.0;                                      ///< half height, orthographic
+  double yfov = 0.7853981633974483;  ///< radians, perspective
+  double ymag = 1.0;                 ///< half height, orthographic
   double znear = 0.01;
   double zfar = std::numeric_limits<double>::infinity();  ///< infinity: infinite projection
 };

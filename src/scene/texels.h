@@ -20,8 +20,8 @@ struct Texels {
 /// The picture as linear floats; Srgb decodes r, g, b by IEC 61966-2-1 and leaves a linear.
 Texels decode(const Picture& picture, ColorSpace space);
 
-/// The mipmap chain from level 0 down to 1 x 1: each texel of a level is the mean of the region of the level above that it covers (exact box
-/// filter, also for odd sizes), in linear light, computed in double. Sizes are max(1, floor(size / 2)), OpenGL ES 3.0.6 section 3.8.10.4.
+/// The mipmap chain from level 0 down to 1 x 1: each texel is the mean of the region of the level above that it covers (exact box filter,
+/// also for odd sizes), in linear light, computed in double. Sizes are max(1, floor(size / 2)), OpenGL ES 3.0.6 section 3.8.10.4.
 std::vector<Texels> mipmaps(Texels level0);
 
 }  // namespace sheen::scene

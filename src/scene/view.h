@@ -21,7 +21,7 @@ Camera resolve_camera(const Scene& scene, const View& view);
 /// A perspective camera (yfov 45 degrees) on the +Z side that sees the whole scene, up +Y.
 Camera framing_camera(const Scene& scene, double aspect);
 
-/// Clip from view space (OpenGL conventions, z in [-1,1]); the image's aspect wins, yfov or ymag is kept. Infinite zfar gives glTF's infinite
+/// Clip from view space (OpenGL conventions, z in [-1,1]); the image's aspect wins, yfov or ymag is kept. Infinite zfar gives an infinite
 /// projection (glTF 2.0, section 3.10.3.1).
 glm::dmat4 clip_from_camera(const Camera& camera, double aspect);
 
