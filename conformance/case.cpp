@@ -1,0 +1,54 @@
+#include "conformance/case.h"
+
+#include <array>
+#include <utility>
+
+namespace sheen::conformance {
+namespace {
+
+using albedo::AlbedoScaling;
+using albedo::Visibility;
+
+constexpr std::array<std::pair<Visibility, const char*>, 3> visibilities = {
+    {{Visibility::Charlie, "charlie"}, {Visibility::Ashikhmin, "ashikhmin"}, {Visibility::Refined, "refined"}}};
+constexpr std::array<std::pair<AlbedoScaling, const char*>, 4> scalings = {
+    {{AlbedoScaling::Full, "full"}, {AlbedoScaling::View, "view"}, {AlbedoScaling::None, "none"}, {AlbedoScaling::Literal, "literal"}}};
+
+template <class Table, class Value>
+std::string word_of(const Table& table, Value value) {
+  for (const auto& [candidate, word] : table) {
+    if (candidate == value) {
+      return word;
+    }
+  }
+  throw std::logic_error("a value without a word");
+}
+
+template <class Table>
+auto value_of(const Table& table, const std::string& word, const char* what) {
+  std::string known;
+  for (const auto& [candidate, name] : table) {
+    if (word == name) {
+      return candidate;
+    }
+    known += known.empty() ? name : std::string(", ") + name;
+  }
+  throw std::invalid_argument(std::string("unknown ") + what + " '" + word + "'; known: " + known);
+}
+
+}  // namespace
+
+std::string to_string(Visibility visibility) {
+  return word_of(visibilities, visibility);
+}
+std::string to_string(AlbedoScaling scaling) {
+  return word_of(scalings, scaling);
+}
+Visibility parse_visibility(const std::string& word) {
+  return value_of(visibilities, word, "visibility");
+}
+AlbedoScaling parse_albedo_scaling(const std::string& word) {
+  return value_of(scalings, word, "albedo scaling");
+}
+
+}  // namespace sheen::conformance

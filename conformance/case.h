@@ -1,0 +1,37 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "albedo/sheen_model.h"
+
+namespace sheen::conformance {
+
+/// What is wrong with a suite file: the file, the element in it ("groups[3] 'clearcoat.{coat}'") and the rule it breaks.
+class SuiteError : public std::runtime_error {
+ public:
+  SuiteError(const std::string& file, const std::string& element, const std::string& rule)
+      : std::runtime_error(file + ": " + element + ": " + rule) {}
+};
+
+/// One picture to draw and judge.
+struct Case {
+  std::string name;  ///< dotted, reads as a sentence: "sheen.crimson.roughness_0.3.on_metal"
+  /// What the scene is: shape, material, lights, camera, node, vertex_colors (conformance/suites/README.md). Already checked.
+  nlohmann::json description;
+  albedo::SheenModel model;  ///< the form of the model that is asked for
+  int width = 128;
+  int height = 128;
+};
+
+/// The model's words, as on the command line: "charlie", "ashikhmin", "refined".
+std::string to_string(albedo::Visibility visibility);
+/// "full", "view", "none", "literal".
+std::string to_string(albedo::AlbedoScaling scaling);
+/// The reverse; throw std::invalid_argument for an unknown word.
+albedo::Visibility parse_visibility(const std::string& word);
+albedo::AlbedoScaling parse_albedo_scaling(const std::string& word);
+
+}  // namespace sheen::conformance

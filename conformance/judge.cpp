@@ -1,0 +1,221 @@
+#include "conformance/judge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "conformance/case_scene.h"
+#include "image/io.h"
+#include "scene/gltf.h"
+
+namespace sheen::conformance {
+namespace {
+
+namespace fs = std::filesystem;
+using albedo::SheenModel;
+
+Status status_of(AnswerStatus status) {
+  switch (status) {
+    case AnswerStatus::Unsupported:
+      return Status::Unsupported;
+    case AnswerStatus::Failed:
+      return Status::Fail;
+    case AnswerStatus::Crash:
+      return Status::Crash;
+    case AnswerStatus::Timeout:
+      return Status::Timeout;
+    default:
+      return Status::Invalid;
+  }
+}
+
+bool has_sheen(const scene::Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const scene::Material& material) { return material.sheen.enabled(); });
+}
+
+/// KHR_materials_sheen offers both in so many words: "one can use a simpler visibility term, like the one defined by Ashikhmin and Premoze"
+/// and "you can use the VdotN term only"; and a viewer that knows nothing but the specification's own terms may be asked for another.
+std::vector<SheenModel> allowed_forms(const SheenModel& asked) {
+  std::vector<SheenModel> forms;
+  for (const albedo::AlbedoScaling scaling : {albedo::AlbedoScaling::Full, albedo::AlbedoScaling::View}) {
+    for (const albedo::Visibility visibility : {albedo::Visibility::Charlie, albedo::Visibility::Ashikhmin}) {
+      if (visibility != asked.visibility || scaling != asked.scaling) {
+        forms.push_back({visibility, scaling});
+      }
+    }
+  }
+  return forms;
+}
+
+std::string name_difference(const SheenModel& form, const SheenModel& asked) {
+  std::string name;
+  if (form.visibility != asked.visibility) {
+    name = "visibility " + to_string(form.visibility);
+  }
+  if (form.scaling != asked.scaling) {
+    name += (name.empty() ? "" : ", ") + ("albedo_scaling " + to_string(form.scaling));
+  }
+  return name;
+}
+
+std::string identify_form(const Case& one, const PreparedCase& prepared, const image::Image& candidate, VerdictRules rules,
+                          const GoldenStore& store) {
+  if (!has_sheen(prepared.scene)) {
+    return "";
+  }
+  rules.golden_is_pxr24 = false;
+  for (const SheenModel& form : allowed_forms(one.model)) {
+    const golden::Settings settings = golden_settings(one, form, prepared.settings.subpixel_bits);
+    const image::Image golden = store.computed(prepared.scene, prepared.scene_hash, settings);
+    if (judge(candidate, golden, rules).status == Status::Pass) {
+      return name_difference(form, one.model);
+    }
+  }
+  return "";
+}
+
+image::Image for_display(const image::Image& from) {
+  const bool alpha = from.channel("A") >= 0;
+  image::Image kept(from.width, from.height,
+                    alpha ? std::vector<std::string>{"R", "G", "B", "A"} : std::vector<std::string>{"R", "G", "B"});
+  for (std::size_t c = 0; c < kept.channels.size(); ++c) {
+    const int source = from.channel(kept.channels[c]);
+    if (source < 0) {
+      continue;
+    }
+    for (int y = 0; y < from.height; ++y) {
+      for (int x = 0; x < from.width; ++x) {
+        kept.at(x, y, static_cast<int>(c)) = from.at(x, y, source);
+      }
+    }
+  }
+  return kept;
+}
+
+void keep_bytes(const fs::path& file, const image::Image& picture, std::vector<std::uint8_t>& bytes) {
+  bytes = image::encode_png(for_display(picture));
+  image::write(file, for_display(picture));
+}
+
+void keep_golden(const fs::path& images, const std::string& name, const image::Image& golden, CasePictures& pictures) {
+  image::write(images / (name + ".golden.exr"), golden);
+  keep_bytes(images / (name + ".golden.png"), golden, pictures.golden);
+}
+
+void keep_candidate(const fs::path& images, const std::string& name, const fs::path& source, const image::Image& candidate,
+                    CasePictures& pictures) {
+  const fs::path exr = images / (name + ".candidate.exr");
+  std::error_code error;
+  if (!fs::equivalent(source, exr, error)) {
+    image::write(exr, candidate);
+  }
+  keep_bytes(images / (name + ".candidate.png"), candidate, pictures.candidate);
+}
+
+void judge_picture(const Case& one, const PreparedCase& prepared, const image::Image& candidate, const Hello& hello,
+                   const GoldenStore& store, CaseResult& result) {
+  VerdictRules rules;
+  rules.golden_is_pxr24 = prepared.reference.pxr24;
+  rules.candidate_is_srgb8 = hello.encoding == Encoding::Srgb8;
+  rules.leave_out_mirrored = hello.name != "sheen-cts";
+  const image::Image& golden = prepared.reference.image;
+  result.verdict = judge(candidate, golden, rules);
+  result.status = result.verdict->status;
+  result.message = result.verdict->message;
+  result.pictures.difference = image::encode_png(paint_ratios(ratio_map(candidate, golden, rules), golden.width, golden.height));
+  result.diagnosis = diagnose(prepared.scene, prepared.settings, candidate, golden, rules, *result.verdict);
+  if (!result.diagnosis->sentence.empty()) {
+    result.message += "; " + result.diagnosis->sentence;
+  }
+  if (result.verdict->mirrored_pixels > 0) {
+    result.message += (result.message.empty() ? "" : "; ") + std::to_string(result.verdict->mirrored_pixels) +
+                      " pixels whose normal faces away were left out";
+  }
+  if (result.status != Status::Fail || result.verdict->nonfinite_pixels > 0) {
+    return;
+  }
+  result.identified = identify_form(one, prepared, candidate, rules, store);
+  if (result.identified.empty()) {
+    return;
+  }
+  if (hello.takes_settings()) {
+    result.message = "draws " + result.identified + " where another form was asked for; " + result.message;
+  } else {
+    result.status = Status::Approximation;
+    result.message = "meets the golden of " + result.identified + ", which the text allows";
+  }
+}
+
+}  // namespace
+
+PreparedCase prepare_case(const Case& one, const GoldenStore& store, const fs::path& scenes, int subpixel_bits) {
+  PreparedCase prepared;
+  prepared.settings = golden_settings(one, one.model, subpixel_bits);
+  try {
+    prepared.scene_file = write_scene(one, scenes);
+    prepared.scene = scene::load_gltf(prepared.scene_file);
+    prepared.scene_hash = scene::content_hash(prepared.scene);
+    prepared.reference = store.reference(one, prepared.scene, prepared.scene_hash, prepared.settings);
+    prepared.problem = prepared.reference.problem;
+  } catch (const std::exception& error) {
+    prepared.problem = error.what();
+  }
+  return prepared;
+}
+
+CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answer& answer, const Hello& hello, const GoldenStore& store,
+                      const fs::path& images) {
+  CaseResult result;
+  result.name = one.name;
+  result.model = to_string(one.model.visibility) + " " + to_string(one.model.scaling);
+  result.width = one.width;
+  result.height = one.height;
+  result.scene_file = prepared.scene_file;
+  result.seconds = answer.seconds;
+  if (!prepared.reference.image.data.empty()) {
+    keep_golden(images, one.name, prepared.reference.image, result.pictures);
+  }
+  if (!prepared.problem.empty()) {
+    result.message = prepared.problem;
+    return result;
+  }
+  if (answer.status != AnswerStatus::Rendered) {
+    result.status = status_of(answer.status);
+    result.message = answer.message.empty() ? "the viewer says so" : answer.message;
+    return result;
+  }
+  image::Image candidate;
+  try {
+    candidate = image::read(answer.image);
+  } catch (const image::Error& error) {
+    result.message = std::string("the picture cannot be read: ") + error.what();
+    return result;
+  }
+  keep_candidate(images, one.name, answer.image, candidate, result.pictures);
+  judge_picture(one, prepared, candidate, hello, store, result);
+  return result;
+}
+
+image::Image paint_ratios(const std::vector<double>& ratios, int width, int height) {
+  image::Image painted(width, height, {"R", "G", "B"});
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    const double ratio = ratios[i];
+    std::array<double, 3> color = {0, 0, 0};
+    if (ratio < 0) {
+      color = {0.12, 0.16, 0.30};
+    } else if (ratio > 1) {
+      // A tenfold error is halfway to white, whatever its size it stays visible.
+      const double heat = std::isfinite(ratio) ? 1 - 1 / (1 + std::log10(ratio)) : 1;
+      color = {1.0, heat * heat, heat};
+    } else {
+      color = {0.55 * ratio * ratio, 0.5 * std::sqrt(ratio), 0.06 * ratio};
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      painted.data[3 * i + c] = static_cast<float>(color.at(c));
+    }
+  }
+  return painted;
+}
+
+}  // namespace sheen::conformance

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "conformance/case.h"
+#include "conformance/diagnosis.h"
+#include "conformance/golden_store.h"
+#include "conformance/verdict.h"
+#include "conformance/viewer.h"
+
+namespace sheen::conformance {
+
+/// A case, ready to be drawn and judged.
+struct PreparedCase {
+  std::filesystem::path scene_file;
+  scene::Scene scene;
+  std::string scene_hash;
+  golden::Settings settings;
+  Reference reference;
+  std::string problem;  ///< why the case cannot be judged; empty when it can
+};
+
+/// Pictures of a case for the report, as PNG files in memory; empty where there is none.
+struct CasePictures {
+  std::vector<std::uint8_t> candidate, golden, difference;
+};
+
+struct CaseResult {
+  std::string name;
+  Status status = Status::Invalid;
+  std::optional<Verdict> verdict;  ///< when pictures were compared
+  std::string identified;          ///< the allowed form of the model that the candidate meets, when it fails the one asked for
+  double seconds = 0;              ///< the viewer's
+  std::string message;
+  std::string model;  ///< "charlie full"
+  int width = 0, height = 0;
+  std::filesystem::path scene_file;
+  std::optional<Diagnosis> diagnosis;
+  CasePictures pictures;
+};
+
+/// Writes the scene, reads it back, computes the golden. Never throws: what goes wrong is the case's `problem`. Safe to call from many
+/// threads.
+PreparedCase prepare_case(const Case& one, const GoldenStore& store, const std::filesystem::path& scenes, int subpixel_bits);
+
+/// Judges what the viewer answered and writes the case's pictures to `images`. A candidate that fails is also held against the goldens of
+/// the other forms that the text allows (simplified scaling; the simpler visibility): a viewer that cannot be told which form to draw and
+/// meets one of those is an approximation; one that can be told fails, and is told what it seems to draw.
+CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answer& answer, const Hello& hello, const GoldenStore& store,
+                      const std::filesystem::path& images);
+
+/// The difference as the report paints it: error over bound, dark green to yellow up to 1, red to white above, blue-grey where left out.
+image::Image paint_ratios(const std::vector<double>& ratios, int width, int height);
+
+}  // namespace sheen::conformance

@@ -1,0 +1,138 @@
+#include "conformance/serve.h"
+
+#include <chrono>
+#include <istream>
+#include <ostream>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "conformance/case.h"
+#include "gles/context.h"
+#include "image/io.h"
+#include "renderer/renderer.h"
+#include "scene/gltf.h"
+
+namespace sheen::conformance {
+namespace {
+
+using nlohmann::json;
+
+gles::ContextKind parse_context(const std::string& word) {
+  if (word == "osmesa") {
+    return gles::ContextKind::OsMesa;
+  }
+  if (word == "egl") {
+    return gles::ContextKind::Egl;
+  }
+  throw std::invalid_argument("unknown context '" + word + "'; known: osmesa, egl");
+}
+
+renderer::Precision parse_precision(const std::string& word) {
+  if (word == "highp") {
+    return renderer::Precision::Highp;
+  }
+  if (word == "mediump") {
+    return renderer::Precision::Mediump;
+  }
+  throw std::invalid_argument("unknown precision '" + word + "'; known: highp, mediump");
+}
+
+renderer::Formulation parse_formulation(const std::string& word) {
+  if (word == "literal") {
+    return renderer::Formulation::Literal;
+  }
+  if (word == "stable") {
+    return renderer::Formulation::Stable;
+  }
+  throw std::invalid_argument("unknown formulation '" + word + "'; known: literal, stable");
+}
+
+renderer::Settings read_settings(const json& request, renderer::Precision precision) {
+  renderer::Settings settings;
+  settings.precision = precision;
+  settings.view.width = request.at("width").get<int>();
+  settings.view.height = request.at("height").get<int>();
+  if (settings.view.width < 1 || settings.view.height < 1) {
+    throw std::invalid_argument("width and height must be at least 1");
+  }
+  if (request.contains("camera") && !request["camera"].is_null()) {
+    settings.view.camera = request["camera"].get<int>();
+  }
+  if (!request.contains("settings") || request["settings"].is_null()) {
+    return settings;
+  }
+  for (const auto& [key, value] : request["settings"].items()) {
+    const std::string word = value.get<std::string>();
+    if (key == "visibility") {
+      settings.sheen.visibility = parse_visibility(word);
+    } else if (key == "albedo_scaling") {
+      settings.sheen.scaling = parse_albedo_scaling(word);
+    } else if (key == "precision") {
+      settings.precision = parse_precision(word);
+    } else if (key == "formulation") {
+      settings.formulation = parse_formulation(word);
+    } else {
+      throw std::invalid_argument("unknown setting '" + key + "'");
+    }
+  }
+  return settings;
+}
+
+/// Draws what the request asks for and fills the answer in.
+void answer_request(const json& request, renderer::Renderer& renderer, renderer::Precision precision, json& answer) {
+  if (request.contains("environment") && !request["environment"].is_null()) {
+    answer["status"] = "unsupported";
+    answer["message"] = "environments are not drawn by this version";
+    return;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string output = request.at("output").get<std::string>();
+  const renderer::Settings settings = read_settings(request, precision);
+  const scene::Scene scene = scene::load_gltf(request.at("scene").get<std::string>());
+  image::write(output, renderer.render(scene, settings));
+  answer["status"] = "rendered";
+  answer["image"] = output;
+  answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+void serve(std::istream& in, std::ostream& out, const ServeOptions& options) {
+  const renderer::Precision precision = parse_precision(options.precision);
+  const gles::ContextKind kind = parse_context(options.context);
+  image::preload();
+  const std::unique_ptr<gles::Context> context = gles::Context::create(kind);
+  const gles::ContextInfo& info = context->info();
+  renderer::Renderer renderer(*context);
+  const json hello = {{"viewer", "sheen-cts"},
+                      {"version", SHEEN_CTS_VERSION},
+                      {"capabilities",
+                       {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_materials_ior",
+                        "KHR_materials_specular", "KHR_materials_sheen", "KHR_materials_clearcoat", "settings"}},
+                      {"encoding", "linear-float"},
+                      {"context",
+                       {{"renderer", info.renderer},
+                        {"version", info.version},
+                        {"mediump_bits", info.mediump_bits},
+                        {"subpixel_bits", info.subpixel_bits}}}};
+  out << hello.dump() << std::endl;
+  std::string line;
+  while (std::getline(in, line)) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) {
+      continue;
+    }
+    json answer = {{"id", nullptr}, {"status", "failed"}, {"image", nullptr}, {"seconds", 0.0}, {"message", ""}};
+    try {
+      const json request = json::parse(line);
+      answer["id"] = request.at("id");
+      answer_request(request, renderer, precision, answer);
+    } catch (const std::exception& error) {
+      answer["status"] = "failed";
+      answer["message"] = error.what();
+    }
+    out << answer.dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
+  }
+}
+
+}  // namespace sheen::conformance

@@ -1,0 +1,100 @@
+#include "conformance/serve.h"
+
+#include <sstream>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "conformance/case_scene.h"
+#include "conformance/suite.h"
+#include "conformance/test_folder.h"
+#include "conformance/viewer.h"
+#include "image/io.h"
+
+namespace sheen::conformance {
+namespace {
+
+using nlohmann::json;
+
+class ServeTest : public testing::Test {
+ protected:
+  TestFolder folder_;
+  std::string scene_;
+
+  void SetUp() override { scene_ = write_scene(load_suite("core").cases.front(), folder_.path()).string(); }
+
+  json request(const std::string& id) const {
+    return {{"id", id},
+            {"scene", scene_},
+            {"environment", nullptr},
+            {"camera", 0},
+            {"width", 16},
+            {"height", 12},
+            {"output", (folder_.path() / (id + ".exr")).string()}};
+  }
+  /// The lines that come back, the hello line first.
+  std::vector<std::string> lines_for(const std::string& input) const {
+    std::istringstream in(input);
+    std::ostringstream out;
+    serve(in, out, {});
+    std::vector<std::string> lines;
+    std::istringstream text(out.str());
+    for (std::string line; std::getline(text, line);) {
+      lines.push_back(line);
+    }
+    return lines;
+  }
+};
+
+TEST_F(ServeTest, SaysHelloAsItsOwnClientExpects) {
+  const std::vector<std::string> lines = lines_for("");
+  ASSERT_EQ(lines.size(), 1U);
+  const Hello hello = parse_hello(lines[0]);
+  EXPECT_EQ(hello.name, "sheen-cts");
+  EXPECT_EQ(hello.encoding, Encoding::LinearFloat);
+  EXPECT_TRUE(hello.takes_settings());
+  EXPECT_FALSE(hello.renderer.empty());
+  EXPECT_GE(hello.subpixel_bits, 4);
+}
+
+TEST_F(ServeTest, DrawsWhatItIsAskedForAndGoesOnAfterAFailure) {
+  json missing = request("b");
+  missing["scene"] = (folder_.path() / "missing.glb").string();
+  json lit = request("c");
+  lit["environment"] = "room.hdr";
+  json odd = request("d");
+  odd["settings"] = {{"visibility", "charly"}};
+  const std::vector<std::string> lines = lines_for(request("a").dump() + "\n" + missing.dump() + "\n\n" + lit.dump() + "\n" + odd.dump() +
+                                                   "\nno json\n" + request("e").dump() + "\n");
+  ASSERT_EQ(lines.size(), 7U);
+  const auto answer = [&lines](std::size_t i) { return json::parse(lines[i]); };
+  EXPECT_EQ(answer(1)["id"], "a");
+  EXPECT_EQ(answer(1)["status"], "rendered") << lines[1];
+  EXPECT_EQ(image::read(folder_.path() / "a.exr").width, 16);
+  EXPECT_EQ(image::read(folder_.path() / "a.exr").height, 12);
+  EXPECT_EQ(answer(2)["status"], "failed");
+  EXPECT_NE(answer(2)["message"].get<std::string>().find("missing.glb"), std::string::npos);
+  EXPECT_EQ(answer(3)["status"], "unsupported");
+  EXPECT_EQ(answer(4)["status"], "failed");
+  EXPECT_EQ(answer(5)["status"], "failed");
+  EXPECT_EQ(answer(6)["status"], "rendered");
+}
+
+TEST_F(ServeTest, SettingsChangeThePicture) {
+  json plain = request("plain");
+  json other = request("other");
+  other["settings"] = {{"visibility", "ashikhmin"}, {"albedo_scaling", "none"}, {"precision", "highp"}, {"formulation", "stable"}};
+  lines_for(plain.dump() + "\n" + other.dump() + "\n");
+  EXPECT_NE(image::read(folder_.path() / "plain.exr").data, image::read(folder_.path() / "other.exr").data);
+}
+
+TEST_F(ServeTest, UnknownOptionsAreRefused) {
+  std::istringstream in;
+  std::ostringstream out;
+  EXPECT_THROW(serve(in, out, {"glx", "highp"}), std::invalid_argument);
+  EXPECT_THROW(serve(in, out, {"osmesa", "lowp"}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sheen::conformance

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sheen::conformance {
+
+/// A tessellated surface with analytic normals and tangents, as a glTF primitive stores it. The two texture coordinate sets differ, so that
+/// reading the wrong one shows. Triangles wind counter-clockwise seen from outside.
+struct Shape {
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<float, 3>> normals;
+  std::vector<std::array<float, 4>> tangents;  ///< along the u of TEXCOORD_0; w so that cross(N, T) w follows its v
+  std::vector<std::array<float, 2>> texcoord_0;
+  std::vector<std::array<float, 2>> texcoord_1;
+  std::vector<std::array<float, 4>> colors;  ///< linear RGBA that varies smoothly
+  std::vector<std::uint16_t> indices;
+};
+
+/// "sphere" (radius 1, 96 x 48), "cloth" (a rolling patch that faces +Z) or "ring" (a torus, turned toward the viewer).
+bool is_shape(const std::string& name);
+/// The names, for messages.
+std::string shape_names();
+/// Throws std::invalid_argument for an unknown name.
+Shape make_shape(const std::string& name);
+
+}  // namespace sheen::conformance

@@ -1,0 +1,295 @@
+#include "conformance/verdict.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace sheen::conformance {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// IEC 61966-2-1: linear light from an sRGB value in [0, 1].
+double srgb_decode(double v) {
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+double srgb_encode(double v) {
+  return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+
+/// How far a linear value may lie from that of the nearest of 256 sRGB codes: half a code to either side, the wider of the two.
+double half_code(double linear) {
+  const double code = std::round(255.0 * srgb_encode(std::clamp(linear, 0.0, 1.0)));
+  const double here = srgb_decode(code / 255.0);
+  const double below = here - srgb_decode(std::max(code - 0.5, 0.0) / 255.0);
+  const double above = srgb_decode(std::min(code + 0.5, 255.0) / 255.0) - here;
+  return std::max(below, above);
+}
+
+/// Channel indices, found once.
+struct Channels {
+  std::array<int, 4> candidate{};  // R G B A; A may be -1
+  std::array<int, 4> golden{};
+  std::array<int, 3> bound{};
+  int excluded = -1;
+  int mirrored = -1;
+
+  Channels(const image::Image& candidate_image, const image::Image& golden_image) {
+    const std::array<const char*, 4> names = {"R", "G", "B", "A"};
+    const std::array<const char*, 3> bounds = {"bound.R", "bound.G", "bound.B"};
+    for (std::size_t c = 0; c < 4; ++c) {
+      candidate.at(c) = candidate_image.channel(names.at(c));
+      golden.at(c) = golden_image.channel(names.at(c));
+      if (c < 3) {
+        bound.at(c) = golden_image.channel(bounds.at(c));
+      }
+    }
+    excluded = golden_image.channel("excluded");
+    mirrored = golden_image.channel("mirrored");
+  }
+  bool candidate_complete() const { return candidate[0] >= 0 && candidate[1] >= 0 && candidate[2] >= 0; }
+  bool golden_complete() const {
+    return std::all_of(golden.begin(), golden.end(), [](int c) { return c >= 0; }) &&
+           std::all_of(bound.begin(), bound.end(), [](int c) { return c >= 0; }) && excluded >= 0;
+  }
+};
+
+/// One channel of one pixel, ready to be judged.
+struct Sample {
+  double error = 0;
+  double bound = 0;
+  double reference = 0;
+
+  /// An error of 0 is within any bound; an error that is not a number is within none, and a bound that is not finite forgives nothing.
+  double ratio() const {
+    if (error == 0) {
+      return 0;
+    }
+    return std::isfinite(error) && std::isfinite(bound) && bound > 0 ? error / bound : infinity;
+  }
+  double relative() const { return error / std::max(std::abs(reference), 1e-3); }
+};
+
+class Judge {
+ public:
+  Judge(const image::Image& candidate, const image::Image& golden, const VerdictRules& rules)
+      : candidate_(candidate), golden_(golden), rules_(rules), channels_(candidate, golden) {}
+
+  const Channels& channels() const { return channels_; }
+
+  bool covered(int x, int y) const {
+    return golden_.at(x, y, channels_.golden[3]) > 0 || (channels_.candidate[3] >= 0 && candidate_.at(x, y, channels_.candidate[3]) > 0);
+  }
+  bool excluded(int x, int y) const { return golden_.at(x, y, channels_.excluded) > 0; }
+  bool mirrored(int x, int y) const {
+    return rules_.leave_out_mirrored && channels_.mirrored >= 0 && golden_.at(x, y, channels_.mirrored) > 0;
+  }
+  bool finite(int x, int y) const {
+    return std::all_of(channels_.candidate.begin(), channels_.candidate.end(),
+                       [&](int c) { return c < 0 || std::isfinite(candidate_.at(x, y, c)); });
+  }
+  std::size_t channel_count() const { return channels_.candidate[3] >= 0 ? 4 : 3; }
+
+  Sample sample(int x, int y, std::size_t c) const {
+    const double value = candidate_.at(x, y, channels_.candidate.at(c));
+    Sample s;
+    s.reference = golden_.at(x, y, channels_.golden.at(c));
+    s.bound = c < 3 ? static_cast<double>(golden_.at(x, y, channels_.bound.at(c))) : alpha_bound(s.reference);
+    if (rules_.golden_is_pxr24) {
+      s.bound += std::abs(s.reference) * 0x1p-16;
+    }
+    if (rules_.candidate_is_srgb8) {
+      s.reference = std::min(s.reference, 1.0);
+      s.bound += c < 3 ? color_rounding(x, y, value) : 0.5 / 255.0;
+    }
+    s.error = std::abs(value - s.reference);
+    return s;
+  }
+
+ private:
+  /// PNG colours are not premultiplied: the code's half step counts times alpha, and alpha's own half step times the colour.
+  double color_rounding(int x, int y, double value) const {
+    const double alpha = channels_.candidate[3] >= 0 ? static_cast<double>(candidate_.at(x, y, channels_.candidate[3])) : 1.0;
+    if (alpha <= 0) {
+      return 0;
+    }
+    const double straight = value / alpha;
+    return half_code(straight) * alpha + (alpha < 1 ? straight * 0.5 / 255.0 : 0.0);
+  }
+
+  const image::Image& candidate_;
+  const image::Image& golden_;
+  VerdictRules rules_;
+  Channels channels_;
+};
+
+/// Nearest-rank 99th percentile.
+double percentile_99(std::vector<double>& values) {
+  if (values.empty()) {
+    return 0;
+  }
+  const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(values.size())));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+std::string size_of(const image::Image& image) {
+  return std::to_string(image.width) + " x " + std::to_string(image.height);
+}
+
+Verdict invalid(const std::string& message) {
+  Verdict verdict;
+  verdict.message = message;
+  return verdict;
+}
+
+bool covers_any(const image::Image& image, int alpha) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (image.at(x, y, alpha) > 0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
+  std::vector<double> relative;
+  for (int y = 0; y < golden.height; ++y) {
+    for (int x = 0; x < golden.width; ++x) {
+      const bool finite = judge.finite(x, y);
+      if (!finite) {
+        ++verdict.nonfinite_pixels;
+      }
+      if (!judge.covered(x, y)) {
+        continue;
+      }
+      if (judge.excluded(x, y)) {
+        ++verdict.excluded_pixels;
+        continue;
+      }
+      if (judge.mirrored(x, y)) {
+        ++verdict.mirrored_pixels;
+        continue;
+      }
+      ++verdict.compared_pixels;
+      if (!finite) {
+        continue;
+      }
+      for (std::size_t c = 0; c < judge.channel_count(); ++c) {
+        const Sample sample = judge.sample(x, y, c);
+        verdict.max_abs = std::max(verdict.max_abs, sample.error);
+        verdict.max_rel = std::max(verdict.max_rel, sample.relative());
+        relative.push_back(sample.relative());
+        if (sample.ratio() > verdict.bound_ratio || verdict.worst_x < 0) {
+          verdict.bound_ratio = sample.ratio();
+          verdict.worst_x = x;
+          verdict.worst_y = y;
+        }
+      }
+    }
+  }
+  verdict.p99_rel = percentile_99(relative);
+}
+
+void decide(const VerdictRules& rules, Verdict& verdict) {
+  const std::int64_t covered = verdict.compared_pixels + verdict.excluded_pixels + verdict.mirrored_pixels;
+  if (verdict.nonfinite_pixels > 0) {
+    verdict.status = Status::Fail;
+    verdict.message = std::to_string(verdict.nonfinite_pixels) + " pixels are NaN or Inf";
+  } else if (!(verdict.bound_ratio <= 1)) {
+    verdict.status = Status::Fail;
+    verdict.message = "the pixel at " + std::to_string(verdict.worst_x) + ", " + std::to_string(verdict.worst_y) + " is off by " +
+                      (std::isfinite(verdict.bound_ratio) ? std::to_string(verdict.bound_ratio) + " times" : "more than any multiple of") +
+                      " its bound";
+  } else if (covered == 0) {
+    verdict.message = "neither image covers a pixel";
+  } else if (verdict.compared_pixels == 0) {
+    verdict.message = "every covered pixel is left out of the comparison";
+  } else if (static_cast<double>(verdict.excluded_pixels) > rules.most_excluded * static_cast<double>(covered)) {
+    verdict.message =
+        std::to_string(verdict.excluded_pixels) + " of " + std::to_string(covered) + " covered pixels are excluded, more than may be";
+  } else {
+    verdict.status = Status::Pass;
+  }
+}
+
+}  // namespace
+
+std::string to_string(Status status) {
+  switch (status) {
+    case Status::Pass:
+      return "pass";
+    case Status::Approximation:
+      return "approximation";
+    case Status::Fail:
+      return "fail";
+    case Status::Unsupported:
+      return "unsupported";
+    case Status::Crash:
+      return "crash";
+    case Status::Timeout:
+      return "timeout";
+    case Status::Invalid:
+      break;
+  }
+  return "invalid";
+}
+
+double alpha_bound(double alpha) {
+  return alpha > 0 && alpha < 1 ? 1e-3 * alpha + 2e-5 : 0.0;
+}
+
+Verdict judge(const image::Image& candidate, const image::Image& golden, const VerdictRules& rules) {
+  if (candidate.width != golden.width || candidate.height != golden.height) {
+    return invalid("the picture is " + size_of(candidate) + ", asked for was " + size_of(golden));
+  }
+  const Judge judge(candidate, golden, rules);
+  if (!judge.channels().candidate_complete()) {
+    return invalid("the picture lacks one of R, G, B");
+  }
+  if (!judge.channels().golden_complete()) {
+    return invalid("the golden lacks a channel");
+  }
+  if (!std::all_of(golden.data.begin(), golden.data.end(), [](float v) { return std::isfinite(v); })) {
+    return invalid("the golden or its bound is NaN or Inf somewhere");
+  }
+  Verdict verdict;
+  measure(judge, golden, verdict);
+  if (!covers_any(golden, judge.channels().golden[3])) {
+    verdict.message = "the golden covers no pixel";
+    return verdict;
+  }
+  decide(rules, verdict);
+  return verdict;
+}
+
+std::vector<double> ratio_map(const image::Image& candidate, const image::Image& golden, const VerdictRules& rules) {
+  std::vector<double> map(static_cast<std::size_t>(golden.width) * static_cast<std::size_t>(golden.height), 0.0);
+  const Judge judge(candidate, golden, rules);
+  if (candidate.width != golden.width || candidate.height != golden.height || !judge.channels().candidate_complete() ||
+      !judge.channels().golden_complete()) {
+    return map;
+  }
+  for (int y = 0; y < golden.height; ++y) {
+    for (int x = 0; x < golden.width; ++x) {
+      double& ratio = map[static_cast<std::size_t>(y) * static_cast<std::size_t>(golden.width) + static_cast<std::size_t>(x)];
+      if (!judge.finite(x, y)) {
+        ratio = infinity;
+      } else if (judge.covered(x, y) && (judge.excluded(x, y) || judge.mirrored(x, y))) {
+        ratio = -1;
+      } else if (judge.covered(x, y)) {
+        for (std::size_t c = 0; c < judge.channel_count(); ++c) {
+          ratio = std::max(ratio, judge.sample(x, y, c).ratio());
+        }
+      }
+    }
+  }
+  return map;
+}
+
+}  // namespace sheen::conformance

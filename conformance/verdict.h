@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+namespace sheen::conformance {
+
+enum class Status { Pass, Approximation, Fail, Unsupported, Crash, Timeout, Invalid };
+
+/// The word of results.json: "pass", "approximation", ...
+std::string to_string(Status status);
+
+/// What a comparison of a candidate with its golden came to.
+struct Verdict {
+  Status status = Status::Invalid;
+  double max_abs = 0;      ///< largest absolute error of a compared channel
+  double max_rel = 0;      ///< largest error / max(|golden|, 1e-3)
+  double p99_rel = 0;      ///< 99th percentile (nearest rank) of the relative errors of all compared channels
+  double bound_ratio = 0;  ///< largest error over its bound: at most 1 passes
+  int worst_x = -1;        ///< the pixel of bound_ratio, rows from the top; -1 when nothing was compared
+  int worst_y = -1;
+  std::int64_t compared_pixels = 0;
+  std::int64_t excluded_pixels = 0;   ///< covered by either image, and left out since rasterisation may rightly differ there
+  std::int64_t mirrored_pixels = 0;   ///< covered, and left out since the normal faces away (foreign viewers alone)
+  std::int64_t nonfinite_pixels = 0;  ///< NaN or Inf in the candidate, anywhere in the image
+  std::string message;                ///< why it is not a pass
+};
+
+/// What may widen a bound, or leave out a pixel, for reasons that lie in how the pictures came here.
+struct VerdictRules {
+  /// The golden's RGBA were stored as PXR24 (24-bit floats with 15 fraction bits: OpenEXR, "Technical Introduction", PXR24), which rounds a
+  /// value by at most 2^-16 of it.
+  bool golden_is_pxr24 = false;
+  /// The candidate came as 8-bit sRGB codes: each holds every value within half a code, and nothing above 1.
+  bool candidate_is_srgb8 = false;
+  /// Leave out the pixels of the golden's channel "mirrored" (N.V <= 0, where MODEL 1 binds our own viewer alone).
+  bool leave_out_mirrored = false;
+  /// A golden with more than this share of its covered pixels excluded judges nothing.
+  double most_excluded = 0.02;
+};
+
+/// The bounds the golden gives (bound.R/G/B, absolute) hold for R, G, B; this one for A, which the golden gives no bound for: the shading
+/// bound of MODEL's first form, 1e-3 relative + 2e-5 absolute, where A lies between 0 and 1, and nothing where it is 0 or 1.
+double alpha_bound(double alpha);
+
+/// Judges a candidate against its golden. A pure function.
+///
+/// Compared are the pixels that either image covers (alpha > 0; a candidate without A covers what the golden covers) and the golden does
+/// not exclude. Passes if and only if every channel of every compared pixel lies within its bound, no pixel of the candidate is NaN or Inf,
+/// the sizes agree, at least one pixel was compared and at most `most_excluded` of the covered ones were excluded. A candidate or golden
+/// that cannot be judged is Invalid.
+/// @param candidate  R G B and perhaps A
+/// @param golden     R G B A bound.R bound.G bound.B excluded, and perhaps mirrored
+Verdict judge(const image::Image& candidate, const image::Image& golden, const VerdictRules& rules);
+
+/// Error over bound of every pixel, row by row, the largest of its channels, as judge() takes it: what a report paints. 0 where neither
+/// image covers, -1 where the pixel is left out, infinity where the candidate is not finite. All 0 when the two cannot be compared.
+std::vector<double> ratio_map(const image::Image& candidate, const image::Image& golden, const VerdictRules& rules);
+
+}  // namespace sheen::conformance

@@ -1,0 +1,281 @@
+#include "conformance/verdict.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace sheen::conformance {
+namespace {
+
+constexpr int width = 20;
+constexpr int height = 10;
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinite_value = std::numeric_limits<float>::infinity();
+
+/// A golden that covers the left half with a smooth colour and a bound of one part in a thousand; 100 covered pixels.
+image::Image make_golden() {
+  image::Image golden(width, height, {"R", "G", "B", "A", "bound.R", "bound.G", "bound.B", "excluded"});
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool covered = x < width / 2;
+      for (int c = 0; c < 3; ++c) {
+        const float value = covered ? 0.1F * static_cast<float>(c + 1) + 0.01F * static_cast<float>(x) : 0.0F;
+        golden.at(x, y, c) = value;
+        golden.at(x, y, 4 + c) = 1e-3F * value + 2e-5F;
+      }
+      golden.at(x, y, 3) = covered ? 1.0F : 0.0F;
+    }
+  }
+  return golden;
+}
+
+image::Image rgba_of(const image::Image& golden) {
+  image::Image candidate(golden.width, golden.height, {"R", "G", "B", "A"});
+  for (int y = 0; y < golden.height; ++y) {
+    for (int x = 0; x < golden.width; ++x) {
+      for (int c = 0; c < 4; ++c) {
+        candidate.at(x, y, c) = golden.at(x, y, c);
+      }
+    }
+  }
+  return candidate;
+}
+
+class VerdictTest : public testing::Test {
+ protected:
+  image::Image golden_ = make_golden();
+  image::Image candidate_ = rgba_of(golden_);
+  VerdictRules rules_;
+
+  Verdict verdict() const { return judge(candidate_, golden_, rules_); }
+};
+
+TEST_F(VerdictTest, TheGoldenItselfPasses) {
+  const Verdict v = verdict();
+  EXPECT_EQ(v.status, Status::Pass) << v.message;
+  EXPECT_EQ(v.compared_pixels, 100);
+  EXPECT_EQ(v.bound_ratio, 0);
+}
+
+TEST_F(VerdictTest, JustWithinTheBoundPassesAndJustOutsideFails) {
+  candidate_.at(3, 4, 1) += 0.9F * golden_.at(3, 4, 5);
+  EXPECT_EQ(verdict().status, Status::Pass);
+  EXPECT_NEAR(verdict().bound_ratio, 0.9, 1e-3);
+  candidate_.at(3, 4, 1) += 0.2F * golden_.at(3, 4, 5);
+  EXPECT_EQ(verdict().status, Status::Fail) << "one channel of one pixel is enough";
+  EXPECT_EQ(verdict().worst_x, 3);
+  EXPECT_EQ(verdict().worst_y, 4);
+}
+
+TEST_F(VerdictTest, EachChannelAlphaTooIsCompared) {
+  for (int c = 0; c < 4; ++c) {
+    image::Image off = candidate_;
+    off.at(7, 2, c) -= 0.01F;
+    EXPECT_EQ(judge(off, golden_, rules_).status, Status::Fail) << "channel " << c;
+  }
+}
+
+TEST_F(VerdictTest, SwappedChannelsFail) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      std::swap(candidate_.at(x, y, 0), candidate_.at(x, y, 2));
+    }
+  }
+  EXPECT_EQ(verdict().status, Status::Fail);
+}
+
+TEST_F(VerdictTest, ChannelsAreFoundByNameNotByPlace) {
+  image::Image shuffled(width, height, {"B", "A", "R", "G"});
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      shuffled.at(x, y, 0) = candidate_.at(x, y, 2);
+      shuffled.at(x, y, 1) = candidate_.at(x, y, 3);
+      shuffled.at(x, y, 2) = candidate_.at(x, y, 0);
+      shuffled.at(x, y, 3) = candidate_.at(x, y, 1);
+    }
+  }
+  EXPECT_EQ(judge(shuffled, golden_, rules_).status, Status::Pass);
+}
+
+TEST_F(VerdictTest, AMissingObjectFails) {
+  const Verdict v = judge(image::Image(width, height, {"R", "G", "B", "A"}), golden_, rules_);
+  EXPECT_EQ(v.status, Status::Fail) << "pixels that only the golden covers are compared";
+  EXPECT_EQ(v.compared_pixels, 100);
+}
+
+TEST_F(VerdictTest, SomethingDrawnOutsideFails) {
+  candidate_.at(15, 5, 0) = 0.5F;
+  candidate_.at(15, 5, 3) = 1.0F;
+  EXPECT_EQ(verdict().status, Status::Fail);
+  EXPECT_EQ(verdict().compared_pixels, 101);
+}
+
+TEST_F(VerdictTest, NanOrInfFailsWhereverItStands) {
+  for (const auto& [x, y] : {std::pair{2, 2}, std::pair{18, 8}}) {
+    for (const float value : {nan_value, infinite_value, -infinite_value}) {
+      image::Image off = candidate_;
+      off.at(x, y, 2) = value;
+      const Verdict v = judge(off, golden_, rules_);
+      EXPECT_EQ(v.status, Status::Fail) << value << " at " << x;
+      EXPECT_EQ(v.nonfinite_pixels, 1);
+    }
+  }
+  golden_.at(2, 2, 7) = 1.0F;
+  candidate_.at(2, 2, 0) = nan_value;
+  EXPECT_EQ(verdict().status, Status::Fail) << "an excluded pixel must be finite too";
+}
+
+TEST_F(VerdictTest, AnInfiniteOrNanBoundForgivesNothing) {
+  for (const float bound : {infinite_value, nan_value}) {
+    image::Image loose = golden_;
+    loose.at(4, 4, 4) = bound;
+    candidate_.at(4, 4, 0) += 100.0F;
+    EXPECT_NE(judge(candidate_, loose, rules_).status, Status::Pass) << bound;
+  }
+}
+
+TEST_F(VerdictTest, ANanGoldenIsInvalid) {
+  golden_.at(4, 4, 0) = nan_value;
+  EXPECT_EQ(verdict().status, Status::Invalid);
+}
+
+TEST_F(VerdictTest, ExcludedPixelsAreLeftOutUpToTwoPercent) {
+  golden_.at(1, 1, 7) = 1.0F;
+  golden_.at(1, 2, 7) = 1.0F;
+  candidate_.at(1, 1, 0) = 9.0F;
+  const Verdict v = verdict();
+  EXPECT_EQ(v.status, Status::Pass) << v.message;
+  EXPECT_EQ(v.excluded_pixels, 2);
+  EXPECT_EQ(v.compared_pixels, 98);
+  golden_.at(1, 3, 7) = 1.0F;
+  EXPECT_EQ(verdict().status, Status::Invalid) << "three of a hundred are too many to judge by the rest";
+}
+
+TEST_F(VerdictTest, ExcludedPixelsThatNobodyCoversDoNotCount) {
+  for (int y = 0; y < height; ++y) {
+    golden_.at(19, y, 7) = 1.0F;
+  }
+  EXPECT_EQ(verdict().status, Status::Pass);
+  EXPECT_EQ(verdict().excluded_pixels, 0);
+}
+
+TEST_F(VerdictTest, AllExcludedIsInvalid) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      golden_.at(x, y, 7) = 1.0F;
+    }
+  }
+  EXPECT_EQ(verdict().status, Status::Invalid);
+}
+
+TEST_F(VerdictTest, AnEmptyGoldenIsInvalidEvenIfTheCandidateIsEmptyToo) {
+  const image::Image empty(width, height, golden_.channels);
+  EXPECT_EQ(judge(image::Image(width, height, {"R", "G", "B", "A"}), empty, rules_).status, Status::Invalid);
+  EXPECT_NE(judge(candidate_, empty, rules_).status, Status::Pass);
+}
+
+TEST_F(VerdictTest, AnotherSizeIsInvalid) {
+  EXPECT_EQ(judge(image::Image(width, height + 1, {"R", "G", "B", "A"}), golden_, rules_).status, Status::Invalid);
+}
+
+TEST_F(VerdictTest, AMissingChannelIsInvalid) {
+  EXPECT_EQ(judge(image::Image(width, height, {"R", "G", "A"}), golden_, rules_).status, Status::Invalid);
+  EXPECT_EQ(judge(candidate_, rgba_of(golden_), rules_).status, Status::Invalid) << "a golden without bounds judges nothing";
+}
+
+TEST_F(VerdictTest, ACandidateWithoutAlphaCoversWhatTheSceneCovers) {
+  image::Image opaque(width, height, {"R", "G", "B"});
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        opaque.at(x, y, c) = x < width / 2 ? candidate_.at(x, y, c) : 0.7F;
+      }
+    }
+  }
+  const Verdict v = judge(opaque, golden_, rules_);
+  EXPECT_EQ(v.status, Status::Pass) << v.message;
+  EXPECT_EQ(v.compared_pixels, 100);
+}
+
+TEST_F(VerdictTest, Pxr24WidensTheBoundByItsRoundingAlone) {
+  const float value = golden_.at(6, 6, 0);
+  golden_.at(6, 6, 4) = 0.0F;
+  candidate_.at(6, 6, 0) = value * (1 + 0x1p-17F);
+  EXPECT_EQ(verdict().status, Status::Fail);
+  rules_.golden_is_pxr24 = true;
+  EXPECT_EQ(verdict().status, Status::Pass) << verdict().message;
+  candidate_.at(6, 6, 0) = value * (1 + 0x1p-15F);
+  EXPECT_EQ(verdict().status, Status::Fail);
+}
+
+/// The linear value of the sRGB code nearest to a linear value, found by trying all.
+float through_codes(float linear) {
+  double best = 0;
+  double distance = 1e9;
+  const double wanted = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(static_cast<double>(linear), 1 / 2.4) - 0.055;
+  for (int code = 0; code < 256; ++code) {
+    const double s = code / 255.0;
+    if (std::abs(s - wanted) < distance) {
+      distance = std::abs(s - wanted);
+      best = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    }
+  }
+  return static_cast<float>(best);
+}
+
+TEST_F(VerdictTest, EightBitCodesAreForgivenHalfACodeAndTheClip) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width / 2; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        golden_.at(x, y, c) *= 3.5F;  // up to 1.36
+        golden_.at(x, y, 4 + c) = 0.0F;
+        candidate_.at(x, y, c) = through_codes(golden_.at(x, y, c));
+      }
+    }
+  }
+  EXPECT_EQ(verdict().status, Status::Fail);
+  rules_.candidate_is_srgb8 = true;
+  EXPECT_EQ(verdict().status, Status::Pass) << verdict().message;
+  candidate_.at(5, 5, 1) = through_codes(golden_.at(5, 5, 1) * 0.97F);
+  EXPECT_EQ(verdict().status, Status::Fail) << "a code off by one or more is seen";
+}
+
+TEST_F(VerdictTest, MirroredPixelsAreLeftOutOnlyIfTheRulesSaySo) {
+  golden_.channels.push_back("mirrored");
+  std::vector<float> data;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(width) * height; ++i) {
+    data.insert(data.end(), golden_.data.begin() + static_cast<std::ptrdiff_t>(8 * i),
+                golden_.data.begin() + static_cast<std::ptrdiff_t>(8 * i + 8));
+    data.push_back(i == 5 ? 1.0F : 0.0F);
+  }
+  golden_.data = data;
+  candidate_.at(5, 0, 0) = 3.0F;
+  EXPECT_EQ(verdict().status, Status::Fail);
+  rules_.leave_out_mirrored = true;
+  EXPECT_EQ(verdict().status, Status::Pass);
+  EXPECT_EQ(verdict().mirrored_pixels, 1);
+  EXPECT_EQ(verdict().compared_pixels, 99);
+}
+
+TEST_F(VerdictTest, FiguresAreThoseOfCompare) {
+  candidate_.at(0, 0, 0) += 0.05F;
+  const Verdict v = verdict();
+  EXPECT_NEAR(v.max_abs, 0.05, 1e-6);
+  EXPECT_NEAR(v.max_rel, 0.05 / golden_.at(0, 0, 0), 1e-5);
+  EXPECT_EQ(v.p99_rel, 0) << "one channel value of 400 is not among the first 99 %";
+}
+
+TEST_F(VerdictTest, TheMapShowsWhatTheVerdictSaw) {
+  candidate_.at(3, 4, 1) += 2 * golden_.at(3, 4, 5);
+  candidate_.at(18, 9, 0) = nan_value;
+  golden_.at(0, 0, 7) = 1.0F;
+  const std::vector<double> map = ratio_map(candidate_, golden_, rules_);
+  EXPECT_NEAR(map[4 * width + 3], 2, 1e-3);
+  EXPECT_EQ(map[0], -1);
+  EXPECT_TRUE(std::isinf(map[9 * width + 18]));
+  EXPECT_EQ(map[5 * width + 15], 0);
+}
+
+}  // namespace
+}  // namespace sheen::conformance
