@@ -1,0 +1,55 @@
+// A whole picture of a velvet sphere, 256 x 256, three lights: the golden with its bounds, and a frame of the renderer.
+#include <memory>
+
+#include <benchmark/benchmark.h>
+
+#include "gles/context.h"
+#include "golden/golden.h"
+#include "renderer/renderer.h"
+#include "tools/benchmarks/sphere_scene.h"
+
+namespace {
+
+constexpr int size = 256;
+
+void golden_picture(benchmark::State& state, bool clearcoat, bool bounds) {
+  const sheen::scene::Scene scene = sheen::bench::sphere_scene(clearcoat);
+  sheen::golden::Settings settings;
+  settings.view.width = size;
+  settings.view.height = size;
+  settings.bounds = bounds;
+  for (auto step : state) {
+    benchmark::DoNotOptimize(sheen::golden::render(scene, settings));
+  }
+  state.counters["pixels"] = benchmark::Counter(size * size, benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK_CAPTURE(golden_picture, sheen, false, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(golden_picture, sheen_with_bounds, false, true)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(golden_picture, clearcoat_over_sheen_with_bounds, true, true)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void renderer_frame(benchmark::State& state, sheen::gles::ContextKind kind, bool clearcoat) {
+  std::unique_ptr<sheen::gles::Context> context;
+  try {
+    context = sheen::gles::Context::create(kind);
+  } catch (const sheen::gles::Unavailable& error) {
+    state.SkipWithError(error.what());
+    return;
+  }
+  const sheen::scene::Scene scene = sheen::bench::sphere_scene(clearcoat);
+  sheen::renderer::Settings settings;
+  settings.view.width = size;
+  settings.view.height = size;
+  sheen::renderer::Renderer renderer(*context);
+  renderer.render(scene, settings);  // compiles the program and builds the table, which later frames keep
+  for (auto step : state) {
+    benchmark::DoNotOptimize(renderer.render(scene, settings));
+  }
+  state.counters["pixels"] = benchmark::Counter(size * size, benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK_CAPTURE(renderer_frame, osmesa_sheen, sheen::gles::ContextKind::OsMesa, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(renderer_frame, osmesa_clearcoat_over_sheen, sheen::gles::ContextKind::OsMesa, true)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(renderer_frame, egl_sheen, sheen::gles::ContextKind::Egl, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace

@@ -1,0 +1,263 @@
+#include "tools/commands.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/errors.h"
+#include "tools/lut_grid.h"
+#include "tools/options.h"
+#include "tools/scene_input.h"
+#include "tools/words.h"
+
+namespace sheen::tools {
+namespace {
+
+/// Largest width, height and table size: the picture of a golden with bounds then still fits 8 GB.
+constexpr int max_size = 16384;
+constexpr int max_table_size = 4096;
+
+void add_json(CLI::App& app, Common& options) {
+  app.add_flag("--json", options.json, "Print one JSON object on stdout, messages on stderr");
+}
+
+/// A flag whose value is one of a few words.
+template <class Value, std::size_t N>
+void add_word(CLI::App& app, const std::string& flag, Value& target, const std::array<Word<Value>, N>& words, const std::string& help) {
+  app.add_option_function<std::string>(
+         flag, [&target, &words](const std::string& text) { target = value_of(words, text).value(); }, help)
+      ->check(CLI::IsMember(texts(words)))
+      ->type_name("WORD")
+      ->default_str(word_of(words, target));
+}
+
+/// A flag of the command line's contract that this version cannot honour: it says so, instead of being ignored. Not shown by --help.
+void add_not_yet(CLI::App& app, const std::string& flag, int values) {
+  app.add_option_function<std::vector<std::string>>(
+         flag, [flag](const std::vector<std::string>&) { throw UsageError(flag + ": not yet available in this version"); }, "")
+      ->expected(values)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("");
+}
+
+void add_not_yet_flag(CLI::App& app, const std::string& flag) {
+  app.add_flag_callback(
+         flag, [flag] { throw UsageError(flag + ": not yet available in this version"); }, "")
+      ->group("");
+}
+
+CLI::Option* add_path(CLI::App& app, const std::string& flag, std::filesystem::path& target, const std::string& help) {
+  return app
+      .add_option_function<std::string>(
+          flag, [&target](const std::string& text) { target = text; }, help)
+      ->type_name("FILE");
+}
+
+/// SCENE and what says how it is seen; shared by render, golden and explain.
+void add_scene(CLI::App& app, SceneOptions& options) {
+  add_path(app, "SCENE", options.scene, "glTF 2.0 scene, .gltf or .glb")->required();
+  app.add_option("--width", options.view.width, "Width of the image in pixels")->check(CLI::Range(1, max_size))->capture_default_str();
+  app.add_option("--height", options.view.height, "Height of the image in pixels")->check(CLI::Range(1, max_size))->capture_default_str();
+  app.add_option("--camera", options.view.camera, "Index of the scene's camera (the first, else one that frames the scene)")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
+      ->type_name("INT");
+  add_word(app, "--visibility", options.sheen.visibility, visibility_words, "Visibility term of the sheen lobe");
+  add_word(app, "--albedo-scaling", options.sheen.scaling, albedo_scaling_words, "How the base under the sheen is dimmed");
+  app.add_option_function<std::vector<std::string>>(
+         "--light",
+         [&options](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) {
+             options.lights.push_back(parse_light(text));
+           }
+         },
+         "directional:X,Y,Z:LUX, (X,Y,Z) toward the light; replaces the scene's own lights; repeatable")
+      ->type_name("LIGHT")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option_function<std::string>(
+         "--model",
+         [](const std::string& text) {
+           if (text == "draft-2019" || text == "physical") {
+             throw UsageError("--model " + text + ": not yet available in this version");
+           }
+           if (text != "ratified") {
+             throw UsageError("--model: " + text + " is not a model; there is ratified");
+           }
+         },
+         "The text that is followed: ratified")
+      ->type_name("WORD")
+      ->default_str("ratified");
+  app.add_option_function<std::int64_t>(
+         "--seed", [](const std::int64_t&) {}, "Seed of random sampling; nothing is sampled at random under punctual lights")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("INT");
+  add_not_yet(app, "--environment", 1);
+  add_not_yet(app, "--environment-rotation", 1);
+  add_not_yet_flag(app, "--background");
+  add_json(app, options);
+}
+
+/// What chooses the shader; shared by render and explain.
+void add_shader(CLI::App& app, RenderOptions& options) {
+  add_word(app, "--precision", options.precision, precision_words, "Precision of the shading");
+  add_word(app, "--formulation", options.formulation, formulation_words,
+           "The specification's printed code, or a form that keeps its digits");
+  add_word(app, "--albedo-source", options.albedo_source, albedo_source_words, "Where the shader takes the directional albedo from");
+  add_not_yet(app, "--environment-samples", 1);
+  add_not_yet(app, "--max-error", 1);
+}
+
+void check_shader(const RenderOptions& options) {
+  if (options.albedo_source == renderer::AlbedoSource::Fit && options.sheen.visibility == albedo::Visibility::Refined) {
+    throw UsageError("--albedo-source fit: there is no fit for --visibility refined");
+  }
+}
+
+Action declare_render(CLI::App& app) {
+  auto options = std::make_shared<RenderOptions>();
+  add_scene(app, *options);
+  add_path(app, "-o,--output", options->output, ".exr, .hdr or .pfm: linear; .png: sRGB")->required();
+  add_word(app, "--context", options->context, context_words, "Kind of offscreen GL context");
+  add_shader(app, *options);
+  app.add_flag("--verify", options->verify, "Then compute the golden and judge the image; exit 1 when a pixel is outside its bound");
+  add_word(app, "--tone-map", options->tone_map, tone_map_words, "Curve applied to what is written");
+  app.add_option("--exposure", options->exposure, "EV: the radiance written is multiplied by 2^EV")
+      ->check(CLI::Range(-100.0, 100.0))
+      ->capture_default_str();
+  return [options] {
+    check_shader(*options);
+    if (!std::isfinite(options->exposure)) {
+      throw UsageError("--exposure: must be a finite number");
+    }
+    return render(*options);
+  };
+}
+
+Action declare_golden(CLI::App& app) {
+  auto options = std::make_shared<GoldenOptions>();
+  add_scene(app, *options);
+  add_path(app, "-o,--output", options->output, ".exr (with the channels bound.R, bound.G, bound.B and excluded), .hdr, .pfm or .png")
+      ->required();
+  add_not_yet(app, "--error", 1);
+  add_not_yet(app, "--samples", 1);
+  return [options] { return golden(*options); };
+}
+
+Action declare_compare(CLI::App& app) {
+  auto options = std::make_shared<CompareOptions>();
+  add_path(app, "CANDIDATE", options->candidate, "Image to judge")->required();
+  add_path(app, "REFERENCE", options->reference, "Image to judge it by")->required();
+  add_path(app, "--heatmap", options->heatmap, "Write a picture of the relative error");
+  app.add_option_function<std::string>(
+         "--tolerance", [options](const std::string& text) { options->tolerance = parse_tolerance(text); },
+         "Exit 1 when a compared value is off by more than max(ABS, REL * reference)")
+      ->type_name("REL,ABS");
+  add_json(app, *options);
+  return [options] { return compare(*options); };
+}
+
+Action declare_lut(CLI::App& app) {
+  auto options = std::make_shared<LutOptions>();
+  add_path(app, "-o,--output", options->output, ".csv, .exr, .hdr or .hpp (C++ header)")->required();
+  add_word(app, "--visibility", options->visibility, visibility_words, "Visibility term of the sheen lobe");
+  app.add_option("--size", options->size, "Nodes along each side")->check(CLI::Range(1, max_table_size))->capture_default_str();
+  add_word(app, "--layout", options->layout, lut_layout_words,
+           "plain: texel centres of (N.V, roughness); warped: nodes crowded toward grazing");
+  add_not_yet(app, "--check", 1);
+  add_json(app, *options);
+  return [options] {
+    if (options->layout == LutLayout::Warped && options->size < 2) {
+      throw UsageError("--size: a warped table has at least 2 nodes a side");
+    }
+    return lut(*options);
+  };
+}
+
+Action declare_explain(CLI::App& app) {
+  auto options = std::make_shared<RenderOptions>();
+  add_scene(app, *options);
+  add_shader(app, *options);
+  return [options] {
+    check_shader(*options);
+    return explain(*options);
+  };
+}
+
+void add_cases(CLI::App& app, ListOptions& options) {
+  app.add_option("--suite", options.suite, "Suite of cases")->capture_default_str();
+  app.add_option("--filter", options.filter, "Cases by name: globs separated by ':', those after '-' left out")
+      ->type_name("GLOB")
+      ->capture_default_str();
+  add_json(app, options);
+}
+
+Action declare_list(CLI::App& app) {
+  auto options = std::make_shared<ListOptions>();
+  add_cases(app, *options);
+  return [options] { return list(*options); };
+}
+
+Action declare_run(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  add_cases(app, *options);
+  app.add_option("--viewer", options->viewer, "Our own renderer, or the command that starts a viewer speaking the protocol")
+      ->type_name("COMMAND")
+      ->capture_default_str();
+  add_word(app, "--context", options->context, context_words, "Kind of offscreen GL context of our own viewer");
+  add_word(app, "--precision", options->precision, precision_words, "Precision of the shading of our own viewer");
+  add_path(app, "--report", options->report, "Folder of the report (sheen-cts-report/SUITE)")->type_name("DIR");
+  add_path(app, "--goldens", options->goldens, "Folder of the committed goldens (those that came with this program)")->type_name("DIR");
+  app.add_flag("--strict", options->strict, "Approximations count as failures");
+  return [options] { return run(*options); };
+}
+
+template <int (*operation)(const GoldensOptions&)>
+Action declare_goldens(CLI::App& app) {
+  auto options = std::make_shared<GoldensOptions>();
+  app.add_option("--suite", options->suite, "Suite of cases")->capture_default_str();
+  add_path(app, "--goldens", options->goldens, "Folder of the goldens (those that came with this program)")->type_name("DIR");
+  add_json(app, *options);
+  return [options] { return operation(*options); };
+}
+
+Action declare_serve(CLI::App& app) {
+  auto options = std::make_shared<ServeOptions>();
+  add_word(app, "--context", options->context, context_words, "Kind of offscreen GL context");
+  add_word(app, "--precision", options->precision, precision_words, "Precision of the shading");
+  app.add_flag("--json", options->json, "Print what this viewer says of itself, one JSON object, and end");
+  return [options] { return serve(*options); };
+}
+
+}  // namespace
+
+std::vector<Command> commands() {
+  return {
+      {"render", "Draw a scene offscreen with the GL ES 3 renderer", "render cloth.glb -o cloth.exr --light directional:1,1,1:3 --verify",
+       declare_render},
+      {"golden", "Compute the same image in double on the CPU, with a bound on every pixel",
+       "golden cloth.glb -o golden.exr --light directional:1,1,1:3", declare_golden},
+      {"compare", "Measure how far an image is from a reference", "compare cloth.exr golden.exr --tolerance 1e-3,2e-5 --heatmap error.png",
+       declare_compare},
+      {"list", "List the cases of a suite", "list --suite core --filter 'sheen.*'", declare_list},
+      {"run", "Run a suite against a viewer and write a report", "run --suite core --report report", declare_run},
+      {"goldens",
+       "Make or check the committed goldens",
+       nullptr,
+       nullptr,
+       {{"generate", "Compute every golden of a suite and write them", "goldens generate --goldens goldens",
+         declare_goldens<goldens_generate>},
+        {"verify", "Compute every golden again and hold the files to it", "goldens verify", declare_goldens<goldens_verify>}}},
+      {"lut", "Write a table of the sheen lobe's directional albedo", "lut -o sheen_albedo.exr --size 128", declare_lut},
+      {"explain", "Say what a scene requires of the renderer", "explain cloth.glb --json", declare_explain},
+      {"serve", "Be a viewer: answer requests on stdin by the viewer protocol", "serve --context egl", declare_serve},
+  };
+}
+
+}  // namespace sheen::tools

@@ -1,0 +1,61 @@
+#include "golden/golden.h"
+
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "image/io.h"
+#include "tools/errors.h"
+#include "tools/files.h"
+#include "tools/golden_image.h"
+#include "tools/options.h"
+#include "tools/progress.h"
+#include "tools/scene_input.h"
+#include "tools/words.h"
+
+namespace sheen::tools {
+
+image::Image golden_image(const scene::Scene& scene, const SceneOptions& options, int subpixel_bits) {
+  const std::int64_t pixels = std::int64_t{options.view.width} * options.view.height;
+  Progress progress("golden", "pixels", pixels);
+  golden::Settings settings;
+  settings.view = options.view;
+  settings.sheen = options.sheen;
+  settings.subpixel_bits = subpixel_bits;
+  settings.progress = [&progress, pixels](double share) {
+    progress.update(static_cast<std::int64_t>(share * static_cast<double>(pixels)));
+  };
+  return golden::render(scene, settings);
+}
+
+int golden(const GoldenOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
+  image::preload();
+  const scene::Scene scene = load_scene(options);
+  require_light(scene);
+  const image::Image picture = golden_image(scene, options, golden::Settings().subpixel_bits);
+  image::write(options.output, picture);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.json) {
+    std::cout << nlohmann::ordered_json{{"output", options.output.string()},
+                                        {"width", picture.width},
+                                        {"height", picture.height},
+                                        {"channels", picture.channels},
+                                        {"visibility", word_of(visibility_words, options.sheen.visibility)},
+                                        {"albedo_scaling", word_of(albedo_scaling_words, options.sheen.scaling)},
+                                        {"formula_version", golden::formula_version},
+                                        {"subpixel_bits", golden::Settings().subpixel_bits},
+                                        {"seconds", seconds}}
+                     .dump(2)
+              << '\n';
+  } else {
+    fmt::print("{}: {} x {}, {:.2f} s\n", options.output.string(), picture.width, picture.height, seconds);
+  }
+  return done;
+}
+
+}  // namespace sheen::tools

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "albedo/sheen_model.h"
+#include "gles/context.h"
+#include "renderer/renderer.h"
+#include "scene/scene.h"
+#include "scene/view.h"
+#include "tools/tone_map.h"
+
+namespace sheen::tools {
+
+/// What every command has.
+struct Common {
+  bool json = false;  ///< one JSON object on stdout, messages on stderr
+};
+
+/// The picture to make of a scene: shared by render, golden and explain.
+struct SceneOptions : Common {
+  std::filesystem::path scene;
+  scene::View view;
+  albedo::SheenModel sheen;
+  std::vector<scene::Light> lights;  ///< --light; when given, they replace the scene's own
+};
+
+struct RenderOptions : SceneOptions {
+  std::filesystem::path output;
+  gles::ContextKind context = gles::ContextKind::OsMesa;
+  renderer::Precision precision = renderer::Precision::Highp;
+  renderer::Formulation formulation = renderer::Formulation::Stable;
+  renderer::AlbedoSource albedo_source = renderer::AlbedoSource::Table;
+  bool verify = false;
+  ToneMap tone_map = ToneMap::None;
+  double exposure = 0.0;  ///< EV: the radiance written is multiplied by 2^exposure
+
+  renderer::Settings settings() const { return {view, sheen, precision, formulation, albedo_source}; }
+};
+
+struct GoldenOptions : SceneOptions {
+  std::filesystem::path output;
+};
+
+struct Tolerance {
+  double relative = 0.0;
+  double absolute = 0.0;
+};
+
+struct CompareOptions : Common {
+  std::filesystem::path candidate;
+  std::filesystem::path reference;
+  std::filesystem::path heatmap;  ///< empty: none
+  std::optional<Tolerance> tolerance;
+};
+
+enum class LutLayout { Plain, Warped };
+
+struct LutOptions : Common {
+  std::filesystem::path output;
+  albedo::Visibility visibility = albedo::Visibility::Charlie;
+  int size = 64;
+  LutLayout layout = LutLayout::Plain;
+};
+
+struct ListOptions : Common {
+  std::string suite = "core";
+  std::string filter = "*";
+};
+
+struct RunOptions : ListOptions {
+  std::string viewer = "sheen-cts";
+  gles::ContextKind context = gles::ContextKind::OsMesa;
+  renderer::Precision precision = renderer::Precision::Highp;
+  std::filesystem::path report;   ///< empty: sheen-cts-report/SUITE in the current folder
+  std::filesystem::path goldens;  ///< empty: those installed or, in a build tree, the source's
+  bool strict = false;
+};
+
+struct GoldensOptions : Common {
+  std::string suite = "core";
+  std::filesystem::path goldens;  ///< empty: as for RunOptions
+};
+
+struct ServeOptions : Common {
+  gles::ContextKind context = gles::ContextKind::OsMesa;
+  renderer::Precision precision = renderer::Precision::Highp;
+};
+
+// One function a command; each returns an exit code and throws what main() maps to one. What they print is described in README.
+int render(const RenderOptions& options);
+int golden(const GoldenOptions& options);
+int compare(const CompareOptions& options);
+int lut(const LutOptions& options);
+int explain(const RenderOptions& options);
+int list(const ListOptions& options);
+int run(const RunOptions& options);
+int goldens_generate(const GoldensOptions& options);
+int goldens_verify(const GoldensOptions& options);
+int serve(const ServeOptions& options);
+
+}  // namespace sheen::tools

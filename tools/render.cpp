@@ -1,0 +1,92 @@
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "conformance/verdict.h"
+#include "gles/context.h"
+#include "image/io.h"
+#include "renderer/renderer.h"
+#include "tools/errors.h"
+#include "tools/files.h"
+#include "tools/golden_image.h"
+#include "tools/options.h"
+#include "tools/scene_input.h"
+#include "tools/tone_map.h"
+#include "tools/words.h"
+
+namespace sheen::tools {
+namespace {
+
+nlohmann::ordered_json describe(const RenderOptions& options, const gles::ContextInfo& info, double seconds) {
+  return {{"output", options.output.string()},
+          {"width", options.view.width},
+          {"height", options.view.height},
+          {"visibility", word_of(visibility_words, options.sheen.visibility)},
+          {"albedo_scaling", word_of(albedo_scaling_words, options.sheen.scaling)},
+          {"precision", word_of(precision_words, options.precision)},
+          {"formulation", word_of(formulation_words, options.formulation)},
+          {"albedo_source", word_of(albedo_source_words, options.albedo_source)},
+          {"tone_map", word_of(tone_map_words, options.tone_map)},
+          {"exposure", options.exposure},
+          {"context",
+           {{"kind", word_of(context_words, options.context)},
+            {"renderer", info.renderer},
+            {"version", info.version},
+            {"subpixel_bits", info.subpixel_bits},
+            {"mediump_bits", info.mediump_bits}}},
+          {"seconds", seconds}};
+}
+
+nlohmann::ordered_json describe(const conformance::Verdict& verdict) {
+  return {{"status", conformance::to_string(verdict.status)},
+          {"bound_ratio", verdict.bound_ratio},
+          {"max_abs", verdict.max_abs},
+          {"max_rel", verdict.max_rel},
+          {"p99_rel", verdict.p99_rel},
+          {"worst_pixel", {verdict.worst_x, verdict.worst_y}},
+          {"compared_pixels", verdict.compared_pixels},
+          {"excluded_pixels", verdict.excluded_pixels},
+          {"nonfinite_pixels", verdict.nonfinite_pixels},
+          {"message", verdict.message}};
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
+  image::preload();
+  const scene::Scene scene = load_scene(options);
+  require_light(scene);
+  const std::unique_ptr<gles::Context> context = gles::Context::create(options.context);
+  renderer::Renderer renderer(*context);
+  image::Image picture = renderer.render(scene, options.settings());
+  std::optional<conformance::Verdict> verdict;
+  if (options.verify) {
+    verdict = conformance::judge(picture, golden_image(scene, options, context->info().subpixel_bits), {});
+  }
+  apply_display(picture, options.tone_map, options.exposure);
+  image::write(options.output, picture);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.json) {
+    nlohmann::ordered_json report = describe(options, context->info(), seconds);
+    if (verdict) {
+      report["verify"] = describe(*verdict);
+    }
+    std::cout << report.dump(2) << '\n';
+  } else {
+    fmt::print("{}: {} x {}, {}, {:.2f} s\n", options.output.string(), picture.width, picture.height, context->info().renderer, seconds);
+    if (verdict) {
+      fmt::print("{}: largest error {:.3g} of its bound at pixel ({}, {}); {} pixels compared, {} excluded{}{}\n",
+                 conformance::to_string(verdict->status), verdict->bound_ratio, verdict->worst_x, verdict->worst_y,
+                 verdict->compared_pixels, verdict->excluded_pixels, verdict->message.empty() ? "" : "; ", verdict->message);
+    }
+  }
+  return !verdict || verdict->status == conformance::Status::Pass ? done : failed;
+}
+
+}  // namespace sheen::tools

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Builds with the address and undefined-behaviour sanitizers and runs the tests under them. Arguments go to ctest.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+tools/setup.sh
+cmake --preset asan
+cmake --build --preset asan
+export LSAN_OPTIONS="suppressions=$PWD/tools/lsan.supp:print_suppressions=0"
+export UBSAN_OPTIONS="print_stacktrace=1"
+exec ctest --preset asan --parallel "$(nproc)" "$@"
