@@ -77,7 +77,7 @@ TEST(Results, JsonStaysJsonWhateverTheNumbers) {
   verdict.max_rel = std::numeric_limits<double>::quiet_NaN();
   record.cases[0].verdict = verdict;
   record.cases[0].message = "bytes \xff\xfe no text";
-  EXPECT_NO_THROW(static_cast<void>(json::parse(results_json(record))));
+  EXPECT_TRUE(json::parse(results_json(record), nullptr, false).is_object());
 }
 
 TEST(Report, HoldsItselfAndEscapesWhatAViewerSays) {

@@ -112,7 +112,7 @@ TEST_F(RunTest, ARightPictureOfEachPassesAndTheReportIsComplete) {
   EXPECT_EQ(outcome.results["summary"]["pass"], 2) << outcome.results.dump(1);
   EXPECT_EQ(outcome.results["cases"].size(), 2U);
   EXPECT_EQ(json::parse(contents("results.json")), outcome.results);
-  EXPECT_NE(contents("results.xml").find("name=\"emission.strong\" status=\"run\""), std::string::npos) << contents("results.xml");
+  EXPECT_NE(contents("results.xml").find("name=\"emission.strong\""), std::string::npos) << contents("results.xml");
   EXPECT_NE(contents("index.html").find("emission.strong"), std::string::npos);
   for (const char* kind : {"candidate.exr", "candidate.png", "golden.exr", "golden.png"}) {
     EXPECT_TRUE(fs::is_regular_file(report() / "images" / (std::string("emission.strong.") + kind))) << kind;

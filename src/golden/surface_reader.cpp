@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -37,9 +38,18 @@ brdf::Rgb<double> rgb(const glm::dvec3& c) {
 struct SurfaceReader::Footprint {
   int count = 0;        // 0: level 0; 3: here, right, below; 9: the 3 x 3 block, row by row
   bool beyond = false;  // a neighbour's ray never meets the plane: the coarsest level
-  double share = 0.0;   // of the range of levels, with 9
+  double level = 0.0;   // asked for, with 9
   std::array<glm::dvec3, 9> weights{};
 };
+
+std::vector<double> levels_within(const LodInterval& range) {
+  std::vector<double> levels{range.low};
+  for (double quarter = std::floor(4.0 * range.low) + 1.0; quarter < 4.0 * range.high; quarter += 1.0) {
+    levels.push_back(quarter / 4.0);
+  }
+  levels.push_back(range.high);
+  return levels;
+}
 
 SurfaceReader::SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays)
     : geometry_(geometry), rays_(rays), materials_(scene.materials.size()) {
@@ -105,7 +115,7 @@ SurfaceReader::Footprint SurfaceReader::footprint(const Hit& hit, const Ray& ray
       f.weights[i] = met->weights;
     }
   };
-  if (!lod.share) {
+  if (!lod.level) {
     f.count = 3;
     f.weights[0] = hit.weights;
     place(1, 1.0, 0.0);
@@ -113,7 +123,7 @@ SurfaceReader::Footprint SurfaceReader::footprint(const Hit& hit, const Ray& ray
     return f;
   }
   f.count = 9;
-  f.share = *lod.share;
+  f.level = *lod.level;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       place(static_cast<std::size_t>(3 * row + column), column - 1, row - 1);
@@ -122,42 +132,62 @@ SurfaceReader::Footprint SurfaceReader::footprint(const Hit& hit, const Ray& ray
   return f;
 }
 
+glm::dvec2 SurfaceReader::texcoord(const Slot& slot, const Hit& hit, const glm::dvec3& weights) const {
+  const auto& texcoords = geometry_.placed(hit.triangle).primitive->texcoords[static_cast<std::size_t>(slot.texcoord)];
+  const glm::dvec2 uv =
+      texcoords.empty() ? glm::dvec2(0.0) : interpolate<glm::dvec2>(texcoords, geometry_.local_vertices(hit.triangle), weights);
+  return {slot.transform * glm::dvec3(uv, 1.0)};
+}
+
+// The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes.
+LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
+  const glm::dvec2 size = slot.texture->size();
+  const double last = std::log2(std::max(size.x, size.y)) + 1.0;
+  if (footprint.beyond) {
+    return {-1.0, last};
+  }
+  glm::dvec2 texels[9];
+  for (std::size_t i = 0; i < 9; ++i) {
+    texels[i] = texcoord(slot, hit, footprint.weights[i]) * size;
+  }
+  const LodRange range = lod_range(texels);
+  const double low = std::clamp(range.lowest, -1.0, last);
+  return {low, std::clamp(range.highest, low, last)};
+}
+
+LodInterval SurfaceReader::lod_interval(const Hit& hit, const Ray& ray) const {
+  const Material& m = materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)];
+  const Footprint f = footprint(hit, ray, {0.0});
+  LodInterval hull{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Slot* slot : {&m.base_color, &m.metallic_roughness, &m.normal, &m.emissive, &m.specular, &m.specular_color, &m.sheen_color,
+                           &m.sheen_roughness, &m.clearcoat, &m.clearcoat_roughness, &m.clearcoat_normal}) {
+    if (slot->texture && slot->texture->needs_lod()) {
+      const LodInterval interval = lod_interval(*slot, hit, f);
+      hull = {std::min(hull.low, interval.low), std::max(hull.high, interval.high)};
+    }
+  }
+  return hull;
+}
+
 glm::dvec4 SurfaceReader::read(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
   if (!slot.texture) {
     return glm::dvec4(1.0);
   }
-  const scene::Primitive& primitive = *geometry_.placed(hit.triangle).primitive;
-  const auto& texcoords = primitive.texcoords[static_cast<std::size_t>(slot.texcoord)];
-  const auto v = geometry_.local_vertices(hit.triangle);
-  const auto uv_at = [&](const glm::dvec3& weights) {
-    if (texcoords.empty()) {
-      return glm::dvec2(slot.transform * glm::dvec3(0.0, 0.0, 1.0));
-    }
-    return glm::dvec2(slot.transform * glm::dvec3(interpolate<glm::dvec2>(texcoords, v, weights), 1.0));
-  };
   constexpr double coarsest = 1000.0;  // OpenGL ES 3.0.6, table 6.10: TEXTURE_MAX_LOD
   double lambda = -coarsest;
   if (footprint.count != 0 && slot.texture->needs_lod()) {
-    const glm::dvec2 size = slot.texture->size();
-    if (footprint.count == 3) {
-      lambda = footprint.beyond
-                   ? coarsest
-                   : ideal_lod(uv_at(footprint.weights[0]) * size, uv_at(footprint.weights[1]) * size, uv_at(footprint.weights[2]) * size);
+    if (footprint.count == 9) {
+      const LodInterval interval = lod_interval(slot, hit, footprint);
+      lambda = std::clamp(footprint.level, interval.low, interval.high);
+    } else if (footprint.beyond) {
+      lambda = coarsest;
     } else {
-      glm::dvec2 texels[9];
-      for (std::size_t i = 0; i < 9; ++i) {
-        texels[i] = uv_at(footprint.weights[i]) * size;
-      }
-      const LodRange range = lod_range(texels);
-      const double most = std::clamp(footprint.beyond ? coarsest : range.highest, -coarsest, coarsest);
-      const double least = std::clamp(footprint.beyond ? 0.0 : range.lowest, -coarsest, most);
-      // Below level 0 nothing changes: spend the steps where something does.
-      const double low = std::min(std::max(least, -1.0), most);
-      const double high = std::min(most, std::log2(std::max(size.x, size.y)) + 1.0);
-      lambda = low + (std::max(high, low) - low) * footprint.share;
+      const glm::dvec2 size = slot.texture->size();
+      const auto texels = [&](std::size_t i) { return texcoord(slot, hit, footprint.weights[i]) * size; };
+      lambda = ideal_lod(texels(0), texels(1), texels(2));
     }
   }
-  return sample(*slot.texture, uv_at(hit.weights), lambda);
+  return sample(*slot.texture, texcoord(slot, hit, hit.weights), lambda);
 }
 
 glm::dvec3 SurfaceReader::interpolated_normal(const Hit& hit) const {

@@ -11,11 +11,20 @@
 
 namespace sheen::golden {
 
-/// Which level of detail mipmapped textures are read at: the specification's ideal one, or a share of the way from the least to the most
-/// that OpenGL ES allows.
+/// Which level of detail mipmapped textures are read at: the specification's ideal one, or the one given, as far as OpenGL ES allows each
+/// texture to go.
 struct LodChoice {
-  std::optional<double> share;  ///< [0, 1]; none: the ideal level
+  std::optional<double> level;  ///< none: the ideal level
 };
+
+/// Levels of detail that OpenGL ES allows.
+struct LodInterval {
+  double low, high;
+};
+
+/// What a range of levels may show: both its ends, every whole level in it, where what a texture gives has a corner, and three between each
+/// two, since shading does not run straight.
+std::vector<double> levels_within(const LodInterval& range);
 
 /// Reads materials: everything between a hit and its shading.
 class SurfaceReader {
@@ -26,6 +35,9 @@ class SurfaceReader {
   Layers layers(int material) const { return materials_[static_cast<std::size_t>(material)].layers; }
   /// Whether a material's textures depend on the level of detail; else LodChoice changes nothing.
   bool needs_lod(int material) const { return materials_[static_cast<std::size_t>(material)].needs_lod; }
+
+  /// From the least level allowed for any texture of the surface at a hit to the most, for a material that needs_lod().
+  LodInterval lod_interval(const Hit& hit, const Ray& ray) const;
 
   /// What shading needs at a hit of a ray; weights outside [0, 1] extrapolate.
   Surface<double> surface(const Hit& hit, const Ray& ray, LodChoice lod = {}) const;
@@ -47,8 +59,9 @@ class SurfaceReader {
     Slot sheen_color, sheen_roughness, clearcoat, clearcoat_roughness, clearcoat_normal;
   };
   struct Footprint;
-
   void read_material(const scene::Scene& scene, TextureStore& store, int index);
+  glm::dvec2 texcoord(const Slot& slot, const Hit& hit, const glm::dvec3& weights) const;
+  LodInterval lod_interval(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec4 read(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec3 mapped_normal(const Slot& slot, double scale, const glm::dvec3& normal, const Hit& hit, const Footprint& footprint) const;
   glm::dvec3 interpolated_normal(const Hit& hit) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -88,9 +89,25 @@ Seen Tile::extended(const Seen& centre, const Ray& ray) const {
   return out;
 }
 
-bool Tile::any_lod(const Seen& seen) const {
-  const auto needs = [&](const Hit& h) { return frame_.reader.needs_lod(frame_.geometry.placed(h.triangle).material_index); };
-  return (seen.nearest && needs(*seen.nearest)) || std::any_of(seen.blended.begin(), seen.blended.end(), needs);
+// What is seen at the levels of detail that OpenGL ES allows.
+void Tile::add_levels(const Seen& seen, const Ray& ray) {
+  LodInterval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const auto add = [&](const Hit& hit) {
+    if (frame_.reader.needs_lod(frame_.geometry.placed(hit.triangle).material_index)) {
+      const LodInterval interval = frame_.reader.lod_interval(hit, ray);
+      range = {std::min(range.low, interval.low), std::max(range.high, interval.high)};
+    }
+  };
+  if (seen.nearest) {
+    add(*seen.nearest);
+  }
+  std::for_each(seen.blended.begin(), seen.blended.end(), add);
+  if (!(range.low <= range.high)) {
+    return;
+  }
+  for (const double level : levels_within(range)) {
+    add_sample(seen, ray, {level});
+  }
 }
 
 void Tile::plan_shifts(const Ray& centre_ray, const Seen& centre, Plan& plan) {
@@ -125,10 +142,8 @@ Tile::Plan Tile::plan(int x, int y) {
     add_sample(seen, ray);
   }
   plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
-  if (bounds && any_lod(seen)) {
-    for (const double share : {0.0, 0.5, 1.0}) {
-      add_sample(seen, ray, {share});
-    }
+  if (bounds) {
+    add_levels(seen, ray);
   }
   plan.lod_end = static_cast<std::uint32_t>(samples_.size());
   return plan;

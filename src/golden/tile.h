@@ -54,7 +54,7 @@ class Tile {
   void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
   bool interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const;
   Seen extended(const Seen& centre, const Ray& ray) const;
-  bool any_lod(const Seen& seen) const;
+  void add_levels(const Seen& seen, const Ray& ray);
   void shade_surfaces();
   Composed compose(const Sample& sample) const;
   Pixel finish(const Plan& plan) const;

@@ -136,8 +136,8 @@ bool Tracer::Impl::kept_by_mask(const Hit& hit, Query& query) const {
   const double cutoff = placed.material->alpha_cutoff;
   const bool kept = reader.opacity(hit, *query.ray) >= cutoff;
   if (query.judge_mask && reader.needs_lod(placed.material_index)) {
-    for (const double share : {0.0, 0.5, 1.0}) {
-      if ((reader.opacity(hit, *query.ray, {share}) >= cutoff) != kept) {
+    for (const double level : levels_within(reader.lod_interval(hit, *query.ray))) {
+      if ((reader.opacity(hit, *query.ray, {level}) >= cutoff) != kept) {
         query.uncertain = std::min(query.uncertain, hit.t);
       }
     }

@@ -1,10 +1,9 @@
 #include "scene/gltf_fixture_test.h"
 
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
-
-#include <stdlib.h>
 
 namespace sheen::scene::test {
 namespace {
@@ -238,7 +237,7 @@ std::string error_of_file(const std::filesystem::path& file) {
   try {
     load_gltf(file);
   } catch (const Error& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     EXPECT_NE(message.find(file.filename().string()), std::string::npos) << "the file is not named: " << message;
     return message;
   }
