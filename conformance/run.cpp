@@ -242,10 +242,11 @@ std::vector<std::string> viewer_command(const RunOptions& options) {
 /// Registers the cases that the filter lets through, and runs them under GoogleTest with nothing on standard output.
 void run_tests(Session& session, const RunOptions& options, const std::vector<std::size_t>& chosen) {
   std::map<std::string, std::size_t> index_of;
+  const std::string source = "conformance/suites/" + session.suite().name + ".json";
   for (const std::size_t index : chosen) {
     const std::string& name = session.suite().cases[index].name;
     index_of[name] = index;
-    testing::RegisterTest(session.suite().name.c_str(), name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
+    testing::RegisterTest(session.suite().name.c_str(), name.c_str(), nullptr, nullptr, source.c_str(), 1,
                           [&session, index]() -> testing::Test* { return new CaseTest(session, index); });
   }
   std::vector<std::string> words = {"sheen-cts", "--gtest_output=xml:" + fs::absolute(options.report / "results.xml").string()};

@@ -46,6 +46,7 @@ glm::dvec3 project(const Camera& camera, double aspect, const glm::dvec3& p) {
 
 std::vector<std::uint32_t> instances_of(const std::vector<BlendTriangle>& order) {
   std::vector<std::uint32_t> result;
+  result.reserve(order.size());
   for (const BlendTriangle& t : order) {
     result.push_back(t.instance);
   }

@@ -13,7 +13,7 @@ using sheen::albedo::Visibility;
 
 void albedo_quadrature(benchmark::State& state, Visibility visibility) {
   double n_dot_v = 0.1;
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     n_dot_v = n_dot_v > 0.9 ? 0.1 : n_dot_v + 0.0137;
     benchmark::DoNotOptimize(sheen::albedo::directional_albedo(visibility, n_dot_v, 0.4));
   }
@@ -23,17 +23,18 @@ BENCHMARK_CAPTURE(albedo_quadrature, ashikhmin, Visibility::Ashikhmin)->Unit(ben
 
 void albedo_grid(benchmark::State& state) {
   std::vector<double> centres;
+  centres.reserve(64);
   for (int i = 0; i < 64; ++i) {
     centres.push_back((i + 0.5) / 64.0);
   }
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     benchmark::DoNotOptimize(sheen::albedo::evaluate_grid(Visibility::Charlie, centres, centres));
   }
 }
 BENCHMARK(albedo_grid)->Name("albedo_grid_64x64")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void albedo_shader_table(benchmark::State& state) {
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     benchmark::DoNotOptimize(sheen::albedo::build_table(Visibility::Charlie));
   }
 }
@@ -42,7 +43,7 @@ BENCHMARK(albedo_shader_table)->Unit(benchmark::kMillisecond)->UseRealTime();
 void albedo_interpolant(benchmark::State& state) {
   const sheen::albedo::Interpolant interpolant(Visibility::Charlie);
   double n_dot_v = 0.1;
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     n_dot_v = n_dot_v > 0.9 ? 0.1 : n_dot_v + 0.0137;
     benchmark::DoNotOptimize(interpolant(n_dot_v, 0.4));
   }

@@ -31,7 +31,7 @@ class Cosines {
 
 void charlie_distribution(benchmark::State& state) {
   Cosines cosines;
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     const double n_dot_h = cosines.next();
     benchmark::DoNotOptimize(sheen::brdf::charlie_distribution(0.09, n_dot_h, 1.0 - n_dot_h * n_dot_h));
   }
@@ -41,7 +41,7 @@ BENCHMARK(charlie_distribution);
 void sheen_lobe(benchmark::State& state, Visibility visibility) {
   Cosines cosines;
   const sheen::brdf::SheenLobe<double> lobe(visibility, 0.3, 0.7);
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     const double n_dot_h = cosines.next();
     benchmark::DoNotOptimize(lobe.value_times_n_dot_l(cosines.next(), n_dot_h, 1.0 - n_dot_h * n_dot_h));
   }
@@ -52,7 +52,7 @@ BENCHMARK_CAPTURE(sheen_lobe, refined, Visibility::Refined);
 
 void ggx_lobe(benchmark::State& state) {
   Cosines cosines;
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     const double n_dot_h = cosines.next();
     benchmark::DoNotOptimize(sheen::brdf::ggx_distribution(0.25, n_dot_h, 1.0 - n_dot_h * n_dot_h) *
                              sheen::brdf::smith_visibility(0.25, cosines.next(), 0.7));
@@ -63,7 +63,7 @@ BENCHMARK(ggx_lobe);
 void base_layer(benchmark::State& state) {
   Cosines cosines;
   const sheen::brdf::Base<double> base{{0.8, 0.5, 0.2}, 0.5, 0.25, {0.04, 0.04, 0.04}, 1.0};
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     const double n_dot_h = cosines.next();
     benchmark::DoNotOptimize(sheen::brdf::base_brdf(base, cosines.next(), 0.7, n_dot_h, 1.0 - n_dot_h * n_dot_h, cosines.next()));
   }

@@ -35,7 +35,7 @@ void image_write(benchmark::State& state, const std::string& name) {
   const std::filesystem::path file = std::filesystem::path(folder) / name;
   const sheen::image::Image picture = gradient(1.0f);
   sheen::image::write(file, picture);
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     sheen::image::write(file, picture);
   }
   std::error_code ignored;
@@ -47,7 +47,7 @@ BENCHMARK_CAPTURE(image_write, png, std::string("picture.png"))->Unit(benchmark:
 void image_compare(benchmark::State& state, float gain) {
   const sheen::image::Image reference = gradient(gain);
   const sheen::image::Image candidate = gradient(gain * 1.001f);
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     benchmark::DoNotOptimize(sheen::image::compare(candidate, reference));
   }
 }

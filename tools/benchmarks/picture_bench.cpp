@@ -18,7 +18,7 @@ void golden_picture(benchmark::State& state, bool clearcoat, bool bounds) {
   settings.view.width = size;
   settings.view.height = size;
   settings.bounds = bounds;
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     benchmark::DoNotOptimize(sheen::golden::render(scene, settings));
   }
   state.counters["pixels"] = benchmark::Counter(size * size, benchmark::Counter::kIsIterationInvariantRate);
@@ -41,7 +41,7 @@ void renderer_frame(benchmark::State& state, sheen::gles::ContextKind kind, bool
   settings.view.height = size;
   sheen::renderer::Renderer renderer(*context);
   renderer.render(scene, settings);  // compiles the program and builds the table, which later frames keep
-  for (auto step : state) {
+  for ([[maybe_unused]] auto step : state) {
     benchmark::DoNotOptimize(renderer.render(scene, settings));
   }
   state.counters["pixels"] = benchmark::Counter(size * size, benchmark::Counter::kIsIterationInvariantRate);
