@@ -36,14 +36,14 @@ struct VerdictRules {
   bool golden_is_pxr24 = false;
   /// The candidate came as 8-bit sRGB codes: each holds every value within half a code, and nothing above 1.
   bool candidate_is_srgb8 = false;
-  /// Leave out the pixels of the golden's channel "mirrored" (N.V <= 0, where MODEL 1 binds our own viewer alone).
+  /// Leave out the pixels of the golden's channel "mirrored" (N.V <= 0, where the choice taken binds our own viewer alone).
   bool leave_out_mirrored = false;
   /// A golden with more than this share of its covered pixels excluded judges nothing.
   double most_excluded = 0.02;
 };
 
 /// The bounds the golden gives (bound.R/G/B, absolute) hold for R, G, B; this one for A, which the golden gives no bound for: the shading
-/// bound of MODEL's first form, 1e-3 relative + 2e-5 absolute, where A lies between 0 and 1, and nothing where it is 0 or 1.
+/// bound of The shading tolerance, 1e-3 relative + 2e-5 absolute, where A lies between 0 and 1, and nothing where it is 0 or 1.
 double alpha_bound(double alpha);
 
 /// Judges a candidate against its golden. A pure function.

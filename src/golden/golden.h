@@ -32,7 +32,7 @@ struct Settings {
 /// rasterisation may rightly show another surface or none: a sample moved by the sub-pixel step meets other coverage or another depth) and
 /// `mirrored`.
 /// At an excluded pixel the bound still holds every value seen at the corners of the step. `mirrored` is 1 where N.V <= 0 mirrored V in a
-/// lobe (MODEL section 1), which other viewers may treat otherwise.
+/// lobe (README, "How a verdict is reached"), which other viewers may treat otherwise.
 /// Deterministic whatever the number of threads. Throws scene::Error, std::runtime_error if Embree cannot work.
 image::Image render(const scene::Scene& scene, const Settings& settings);
 

@@ -29,7 +29,7 @@ struct Arriving {
   brdf::Rgb<Real> irradiance;  ///< lux at normal incidence
 };
 
-/// Direction and irradiance at a point (KHR_lights_punctual, "Range Property" and "Inner and Outer Cone Angles"; MODEL section 1). A point
+/// Direction and irradiance at a point (KHR_lights_punctual, "Range Property" and "Inner and Outer Cone Angles"). A point
 /// at the light's own position receives nothing.
 template <class Real>
 Arriving<Real> arriving(const PreparedLight& light, const Vec3<Real>& point) {

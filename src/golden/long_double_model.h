@@ -41,7 +41,7 @@ inline Real mix(Real a, Real b, Real t) {
   return a * (1 - t) + b * t;
 }
 
-// KHR_materials_sheen, "Sheen visibility": l() and lambda_sheen() as printed; the refined coefficients of MODEL section 3.
+// KHR_materials_sheen, "Sheen visibility": l() and lambda_sheen() as printed; the refined coefficients of the Enterprise PBR Shading Model 2022x.
 inline Real sheen_l(Real x, Real alpha_g, albedo::Visibility visibility) {
   Real a = 0;
   Real b = 0;
@@ -126,7 +126,7 @@ inline Real arriving(const scene::Light& light, const Vector& position, Vector& 
   return e;
 }
 
-/// L_o of MODEL section 1 for a material without textures.
+/// Outgoing radiance for a material without textures.
 inline Vector radiance(const Point& p, const scene::Material& m, const std::vector<scene::Light>& lights, albedo::SheenModel model) {
   Real n_dot_v = 0;
   Real nc_dot_v = 0;

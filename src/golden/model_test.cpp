@@ -137,7 +137,7 @@ TEST(Model, OrthographicCameraSeesAlongItsAxis) {
   EXPECT_LT(worst_error(s, test::settings_for(12, 8), 1.0), tolerance);
 }
 
-// MODEL section 6: the default sheenRoughness, where the printed code gives NaN.
+// The default sheenRoughness, where the printed code gives NaN.
 TEST(Model, SheenRoughnessZeroLeavesTheBaseAlone) {
   const scene::Scene with = test::scene_with(test::square(2.0, 0.0, 1.0), velvet(0.0), test::camera_at(2.0, 1.2), three_lights());
   scene::Scene without = with;

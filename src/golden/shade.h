@@ -28,7 +28,7 @@ template <class Real>
 struct Shaded {
   brdf::Rgb<Real> radiance;
   brdf::Rgb<Real> magnitude;  ///< sum of the terms' absolute values: equals radiance unless a scale went negative (`literal`)
-  brdf::Rgb<Real> lookup;     ///< error of reading E once, at min(N.V, N.L), instead of taking the larger of two (MODEL section 4)
+  brdf::Rgb<Real> lookup;     ///< error of reading E once, at min(N.V, N.L), instead of taking the larger of two
   Real mirrored;              ///< 1 where N.V <= 0 mirrored V, of either lobe's normal, else 0
 };
 
@@ -55,7 +55,7 @@ struct NoListener {
   void light(std::size_t, const LightPart<Real>&) {}
 };
 
-/// A lobe's normal with the view direction it is seen from: mirrored where N.V <= 0, its cosine floored (MODEL section 1).
+/// A lobe's normal with the view direction it is seen from: mirrored where N.V <= 0, its cosine floored.
 template <class Real>
 struct LobeView {
   Vec3<Real> n, v;
@@ -118,7 +118,7 @@ brdf::Rgb<Real> absolute(const brdf::Rgb<Real>& c) {
   return {abs(c.r), abs(c.g), abs(c.b)};
 }
 
-/// The sheen layer at one point: lobe, E and the scale it puts on what lies below (MODEL sections 3 and 4).
+/// The sheen layer at one point: lobe, E and the scale it puts on what lies below (KHR_materials_sheen).
 template <class Real>
 class SheenLayer {
  public:
@@ -163,7 +163,7 @@ class SheenLayer {
   Real e_v_;
 };
 
-/// Radiance toward the camera, in lux / sr: MODEL section 1,
+/// Radiance toward the camera, in lux / sr:
 ///   L_o = sum over lights E [ (1-k) (f_sheen + s base) max(N.L,0) + k D_c Vis_c max(Nc.L,0) ] + (1-k) emission.
 /// Every term passes `listener`, so that what is reported and what is drawn come from one evaluation.
 template <class Real, class Listener>

@@ -40,7 +40,7 @@ struct Keep {
   void light(std::size_t, const LightPart<double>& p) { parts.push_back(p); }
 };
 
-// MODEL section 8: r = .5, N.V = .5, N.L = .6, azimuth between V and L .5 rad.
+// Computed apart in long double: r = .5, N.V = .5, N.L = .6, azimuth between V and L .5 rad.
 TEST(Shade, SheenTermsMeetTheNumberComputedIndependently) {
   const glm::dvec3 v(std::sqrt(0.75), 0.0, 0.5);
   const glm::dvec3 l(0.8 * std::cos(0.5), 0.8 * std::sin(0.5), 0.6);
@@ -111,7 +111,7 @@ TEST(Shade, FactorsChangeTheTermTheyName) {
   expect(f, {below, below, 0.0, below});
 }
 
-// MODEL section 4: one lookup is exact but for Charlie below .008.
+// One lookup is exact but for Charlie below .008.
 TEST(Shade, SingleLookupDiffersOnlyWhereCharlieTurns) {
   const albedo::Interpolant e(albedo::Visibility::Charlie);
   const auto difference = [&](double n_dot_v, double n_dot_l) {

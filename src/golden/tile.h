@@ -17,7 +17,7 @@ struct Pixel {
   bool mirrored = false;
 };
 
-/// Tolerance of the shading itself, until it is derived from the rules of MODEL section 7: a share of the value and a floor in its unit.
+/// Tolerance of the shading itself, not yet derived from the rules of GLSL ES: a share of the value and a floor in its unit.
 inline constexpr double relative_tolerance = 1e-3;
 inline constexpr double absolute_tolerance = 2e-5;
 
