@@ -24,7 +24,7 @@ struct RunRecord {
 /// shard)
 RunResult summarize(const RunRecord& record, bool may_be_empty);
 
-/// results.json, as DESIGN.md, "Files of a run", has it. Figures of a case whose pictures were never compared are null.
+/// results.json, what a run leaves for programs to read. Figures of a case whose pictures were never compared are null.
 std::string results_json(const RunRecord& record);
 
 }  // namespace sheen::conformance

@@ -36,7 +36,7 @@ struct RunOptions {
   std::filesystem::path report;                      ///< folder of the report; made when missing
   bool strict = false;                               ///< approximations count as failures
   double start_limit_seconds = 60;                   ///< time a viewer has to say hello
-  double case_limit_seconds = 20;                    ///< time a viewer has to answer one request
+  double case_limit_seconds = 30;                    ///< time a viewer has to answer one request
   std::filesystem::path goldens;                     ///< committed goldens; empty: find_goldens()
   std::filesystem::path cache;                       ///< scenes and computed goldens; empty: default_cache()
   std::filesystem::path executable;                  ///< what to start for our own viewer; empty: this program

@@ -10,7 +10,7 @@ struct ServeOptions {
   std::string precision = "highp";  ///< "highp" or "mediump": what a request that does not say gets
 };
 
-/// Our renderer as a viewer (DESIGN.md, "Viewer protocol"): writes the hello line, then answers each request line until `in` ends. A
+/// Our renderer as a viewer (README, "Viewer protocol"): writes the hello line, then answers each request line until `in` ends. A
 /// request that cannot be drawn is answered `failed` with the reason and the loop goes on. Beyond the protocol, a request may hold
 /// `settings` {visibility, albedo_scaling, precision, formulation}, and the hello line holds `context` {renderer, version, mediump_bits,
 /// subpixel_bits}. Throws gles::Unavailable when there is no such context (before the hello line), std::invalid_argument for an unknown

@@ -50,11 +50,11 @@ struct Answer {
 
 struct ViewerLimits {
   double start_seconds = 60;
-  double case_seconds = 20;
+  double case_seconds = 30;
 };
 
-/// A viewer under test, reached through the protocol of DESIGN.md. One that dies, hangs or answers out of turn is ended and started again
-/// for the next request.
+/// A viewer under test, reached through the viewer protocol (README). One that dies, hangs or answers out of turn is ended and started
+/// again for the next request.
 class Viewer {
  public:
   /// Starts it and reads its first line. Throws ViewerUnavailable (conformance/run.h).

@@ -41,7 +41,8 @@ inline Real mix(Real a, Real b, Real t) {
   return a * (1 - t) + b * t;
 }
 
-// KHR_materials_sheen, "Sheen visibility": l() and lambda_sheen() as printed; the refined coefficients of the Enterprise PBR Shading Model 2022x.
+// KHR_materials_sheen, "Sheen visibility": l() and lambda_sheen() as printed; the refined coefficients of the Enterprise PBR Shading Model
+// 2022x.
 inline Real sheen_l(Real x, Real alpha_g, albedo::Visibility visibility) {
   Real a = 0;
   Real b = 0;
