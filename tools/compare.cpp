@@ -63,10 +63,10 @@ int compare(const CompareOptions& options) {
     report["within_tolerance"] = within;
   }
   if (options.json) {
-    std::cout << report.dump(2) << '\n';
+    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   } else {
     for (const auto& [name, value] : report.items()) {
-      fmt::print("{:<24} {}\n", name, value.is_null() ? "inf" : value.dump());
+      fmt::print("{:<24} {}\n", name, value.is_null() ? "inf" : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     }
   }
   return within ? done : failed;

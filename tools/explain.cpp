@@ -31,7 +31,7 @@ int explain(const RenderOptions& options) {
     for (const auto& [name, entries] : lists) {
       report[name] = *entries;
     }
-    std::cout << report.dump(2) << '\n';
+    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return done;
   }
   for (const auto& [name, entries] : lists) {

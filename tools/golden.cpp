@@ -50,7 +50,7 @@ int golden(const GoldenOptions& options) {
                                         {"formula_version", golden::formula_version},
                                         {"subpixel_bits", golden::Settings().subpixel_bits},
                                         {"seconds", seconds}}
-                     .dump(2)
+                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
               << '\n';
   } else {
     fmt::print("{}: {} x {}, {:.2f} s\n", options.output.string(), picture.width, picture.height, seconds);

@@ -39,7 +39,7 @@ int process(const GoldensOptions& options, const char* what, Operation operation
                                         {"cases", report.cases},
                                         {"bytes", report.bytes},
                                         {"problems", report.problems}}
-                     .dump(2)
+                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
               << '\n';
   } else {
     fmt::print("{}: {} goldens, {:.2f} MB, {} problems\n", report.dir.string(), report.cases, static_cast<double>(report.bytes) / 1e6,

@@ -27,7 +27,7 @@ int list(const ListOptions& options) {
                                {"width", info.width},
                                {"height", info.height}});
   }
-  std::cout << report.dump(2) << '\n';
+  std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   return done;
 }
 

@@ -76,7 +76,7 @@ int lut(const LutOptions& options) {
                                         {"description", describe(options.layout)},
                                         {"max_directional_albedo",
                                          *std::max_element(grid.directional_albedo.begin(), grid.directional_albedo.end())}}
-                     .dump(2)
+                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
               << '\n';
   } else {
     fmt::print("{}: {} x {} {}, {}\n", options.output.string(), options.size, options.size, word_of(visibility_words, options.visibility),

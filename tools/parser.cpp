@@ -30,7 +30,9 @@ constexpr const char* exit_codes =
 int fail(ExitCode code, const std::string& message, bool json) {
   fmt::print(stderr, "sheen-cts: {}\n", message);
   if (json) {
-    std::cout << nlohmann::ordered_json{{"error", message}, {"exit_code", static_cast<int>(code)}}.dump(2) << '\n';
+    std::cout << nlohmann::ordered_json{{"error", message}, {"exit_code", static_cast<int>(code)}}.dump(
+                     2, ' ', false, nlohmann::json::error_handler_t::replace)
+              << '\n';
   }
   return code;
 }

@@ -77,7 +77,7 @@ int render(const RenderOptions& options) {
     if (verdict) {
       report["verify"] = describe(*verdict);
     }
-    std::cout << report.dump(2) << '\n';
+    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   } else {
     fmt::print("{}: {} x {}, {}, {:.2f} s\n", options.output.string(), picture.width, picture.height, context->info().renderer, seconds);
     if (verdict) {

@@ -33,9 +33,9 @@ template <class Real>
 struct Rgb {
   Real r, g, b;
 
-  friend Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-  friend Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-  friend Rgb operator*(const Rgb& a, const Real& s) { return {a.r * s, a.g * s, a.b * s}; }
+  friend Rgb operator+(const Rgb& x, const Rgb& y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
+  friend Rgb operator*(const Rgb& x, const Rgb& y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
+  friend Rgb operator*(const Rgb& x, const Real& s) { return {x.r * s, x.g * s, x.b * s}; }
 };
 
 /// The largest channel (KHR_materials_sheen, "Albedo-scaling technique").

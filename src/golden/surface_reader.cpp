@@ -36,10 +36,13 @@ brdf::Rgb<double> rgb(const glm::dvec3& c) {
 
 // How the triangle lies under the pixel and its neighbours: their weights on its plane, where textures need them.
 struct SurfaceReader::Footprint {
-  int count = 0;        // 0: level 0; 3: here, right, below; 9: the 3 x 3 block, row by row
-  bool beyond = false;  // a neighbour's ray never meets the plane: the coarsest level
-  double level = 0.0;   // asked for, with 9
-  std::array<glm::dvec3, 9> weights{};
+  int count = 0;                      // 0: level 0 for all
+  std::array<glm::dvec3, 3> ideal{};  // weights here, right and below
+  bool ideal_beyond = false;          // a neighbour's ray never meets the plane: the coarsest level
+  const Slot* varied = nullptr;       // the texture whose level is given
+  double level = 0.0;
+  std::array<glm::dvec3, 9> weights{};  // for that one: the 3 x 3 block, row by row
+  bool beyond = false;
 };
 
 std::vector<double> levels_within(const LodInterval& range) {
@@ -107,26 +110,24 @@ SurfaceReader::Footprint SurfaceReader::footprint(const Hit& hit, const Ray& ray
   if (!needs_lod(geometry_.placed(hit.triangle).material_index)) {
     return f;
   }
-  const auto place = [&](std::size_t i, double dx, double dy) {
+  f.count = 1;
+  const auto weights_at = [&](double dx, double dy, bool& beyond) {
     const auto met = geometry_.meet(hit.triangle, rays_.through(ray.x + dx, ray.y + dy));
     if (!met || (rays_.camera().perspective && met->t <= 0.0)) {
-      f.beyond = true;
-    } else {
-      f.weights[i] = met->weights;
+      beyond = true;
+      return glm::dvec3(0.0);
     }
+    return met->weights;
   };
+  f.ideal = {hit.weights, weights_at(1.0, 0.0, f.ideal_beyond), weights_at(0.0, 1.0, f.ideal_beyond)};
   if (!lod.level) {
-    f.count = 3;
-    f.weights[0] = hit.weights;
-    place(1, 1.0, 0.0);
-    place(2, 0.0, 1.0);
     return f;
   }
-  f.count = 9;
+  f.varied = &slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], lod.slot);
   f.level = *lod.level;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      place(static_cast<std::size_t>(3 * row + column), column - 1, row - 1);
+      f.weights[static_cast<std::size_t>(3 * row + column)] = weights_at(column - 1, row - 1, f.beyond);
     }
   }
   return f;
@@ -155,18 +156,19 @@ LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const 
   return {low, std::clamp(range.highest, low, last)};
 }
 
-LodInterval SurfaceReader::lod_interval(const Hit& hit, const Ray& ray) const {
-  const Material& m = materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)];
-  const Footprint f = footprint(hit, ray, {0.0});
-  LodInterval hull{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const Slot* slot : {&m.base_color, &m.metallic_roughness, &m.normal, &m.emissive, &m.specular, &m.specular_color, &m.sheen_color,
-                           &m.sheen_roughness, &m.clearcoat, &m.clearcoat_roughness, &m.clearcoat_normal}) {
-    if (slot->texture && slot->texture->needs_lod()) {
-      const LodInterval interval = lod_interval(*slot, hit, f);
-      hull = {std::min(hull.low, interval.low), std::max(hull.high, interval.high)};
-    }
+const SurfaceReader::Slot& SurfaceReader::slot_of(const Material& m, std::size_t slot) {
+  const std::array<const Slot*, slot_count> slots{&m.base_color, &m.metallic_roughness,  &m.normal,          &m.emissive,
+                                                  &m.specular,   &m.specular_color,      &m.sheen_color,     &m.sheen_roughness,
+                                                  &m.clearcoat,  &m.clearcoat_roughness, &m.clearcoat_normal};
+  return *slots[slot];
+}
+
+std::optional<LodInterval> SurfaceReader::lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const {
+  const Slot& s = slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], slot);
+  if (!s.texture || !s.texture->needs_lod()) {
+    return std::nullopt;
   }
-  return hull;
+  return lod_interval(s, hit, footprint(hit, ray, {0.0, slot}));
 }
 
 glm::dvec4 SurfaceReader::read(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
@@ -176,14 +178,14 @@ glm::dvec4 SurfaceReader::read(const Slot& slot, const Hit& hit, const Footprint
   constexpr double coarsest = 1000.0;  // OpenGL ES 3.0.6, table 6.10: TEXTURE_MAX_LOD
   double lambda = -coarsest;
   if (footprint.count != 0 && slot.texture->needs_lod()) {
-    if (footprint.count == 9) {
+    if (footprint.varied == &slot) {
       const LodInterval interval = lod_interval(slot, hit, footprint);
       lambda = std::clamp(footprint.level, interval.low, interval.high);
-    } else if (footprint.beyond) {
+    } else if (footprint.ideal_beyond) {
       lambda = coarsest;
     } else {
       const glm::dvec2 size = slot.texture->size();
-      const auto texels = [&](std::size_t i) { return texcoord(slot, hit, footprint.weights[i]) * size; };
+      const auto texels = [&](std::size_t i) { return texcoord(slot, hit, footprint.ideal[i]) * size; };
       lambda = ideal_lod(texels(0), texels(1), texels(2));
     }
   }

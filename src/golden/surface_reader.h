@@ -11,10 +11,11 @@
 
 namespace sheen::golden {
 
-/// Which level of detail mipmapped textures are read at: the specification's ideal one, or the one given, as far as OpenGL ES allows each
-/// texture to go.
+/// Which level of detail mipmapped textures are read at: the specification's ideal one, but for one texture of the material the one given,
+/// as far as OpenGL ES allows it to go: a driver chooses for each texture apart.
 struct LodChoice {
-  std::optional<double> level;  ///< none: the ideal level
+  std::optional<double> level;  ///< none: the ideal level for all
+  std::size_t slot = 0;         ///< which texture, below SurfaceReader::slot_count
 };
 
 /// Levels of detail that OpenGL ES allows.
@@ -36,8 +37,11 @@ class SurfaceReader {
   /// Whether a material's textures depend on the level of detail; else LodChoice changes nothing.
   bool needs_lod(int material) const { return materials_[static_cast<std::size_t>(material)].needs_lod; }
 
-  /// From the least level allowed for any texture of the surface at a hit to the most, for a material that needs_lod().
-  LodInterval lod_interval(const Hit& hit, const Ray& ray) const;
+  /// Textures a material may have; base colour is the first.
+  static constexpr std::size_t slot_count = 11;
+
+  /// From the least level allowed for one texture of the surface at a hit to the most; none where it has no mipmaps or is not there.
+  std::optional<LodInterval> lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const;
 
   /// What shading needs at a hit of a ray; weights outside [0, 1] extrapolate.
   Surface<double> surface(const Hit& hit, const Ray& ray, LodChoice lod = {}) const;
@@ -59,6 +63,7 @@ class SurfaceReader {
     Slot sheen_color, sheen_roughness, clearcoat, clearcoat_roughness, clearcoat_normal;
   };
   struct Footprint;
+  static const Slot& slot_of(const Material& material, std::size_t slot);
   void read_material(const scene::Scene& scene, TextureStore& store, int index);
   glm::dvec2 texcoord(const Slot& slot, const Hit& hit, const glm::dvec3& weights) const;
   LodInterval lod_interval(const Slot& slot, const Hit& hit, const Footprint& footprint) const;

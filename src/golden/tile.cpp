@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -27,13 +26,13 @@ void Tile::add_layer(const Hit& hit, const Ray& ray, LodChoice lod) {
   materials_.push_back(placed.material_index);
 }
 
-void Tile::add_sample(const Seen& seen, const Ray& ray, LodChoice lod) {
+void Tile::add_sample(const Seen& seen, const Ray& ray, LodChoice lod, const Hit* varied) {
   const auto first = static_cast<std::uint32_t>(layers_.size());
   if (seen.nearest) {
-    add_layer(*seen.nearest, ray, lod);
+    add_layer(*seen.nearest, ray, varied == &*seen.nearest ? lod : LodChoice{});
   }
   for (const Hit& hit : seen.blended) {
-    add_layer(hit, ray, lod);
+    add_layer(hit, ray, varied == &hit ? lod : LodChoice{});
   }
   samples_.push_back({first, static_cast<std::uint32_t>(layers_.size()) - first});
 }
@@ -89,25 +88,27 @@ Seen Tile::extended(const Seen& centre, const Ray& ray) const {
   return out;
 }
 
-// What is seen at the levels of detail that OpenGL ES allows.
+// What is seen at the levels of detail that OpenGL ES allows each texture of each layer.
 void Tile::add_levels(const Seen& seen, const Ray& ray) {
-  LodInterval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   const auto add = [&](const Hit& hit) {
-    if (frame_.reader.needs_lod(frame_.geometry.placed(hit.triangle).material_index)) {
-      const LodInterval interval = frame_.reader.lod_interval(hit, ray);
-      range = {std::min(range.low, interval.low), std::max(range.high, interval.high)};
+    if (!frame_.reader.needs_lod(frame_.geometry.placed(hit.triangle).material_index)) {
+      return;
+    }
+    for (std::size_t slot = 0; slot < SurfaceReader::slot_count; ++slot) {
+      const std::optional<LodInterval> range = frame_.reader.lod_interval(hit, ray, slot);
+      if (!range) {
+        continue;
+      }
+      for (const double level : levels_within(*range)) {
+        add_sample(seen, ray, {level, slot}, &hit);
+      }
+      lod_group_ends_.push_back(static_cast<std::uint32_t>(samples_.size()));
     }
   };
   if (seen.nearest) {
     add(*seen.nearest);
   }
   std::for_each(seen.blended.begin(), seen.blended.end(), add);
-  if (!(range.low <= range.high)) {
-    return;
-  }
-  for (const double level : levels_within(range)) {
-    add_sample(seen, ray, {level});
-  }
 }
 
 void Tile::plan_shifts(const Ray& centre_ray, const Seen& centre, Plan& plan) {
@@ -134,7 +135,8 @@ Tile::Plan Tile::plan(int x, int y) {
   const bool bounds = frame_.settings.bounds;
   Seen seen;
   frame_.tracer.trace(ray, bounds, seen);
-  Plan plan{static_cast<std::uint32_t>(samples_.size()), 0, 0, seen.tie.has_value() || seen.mask_uncertain};
+  const auto groups = static_cast<std::uint32_t>(lod_group_ends_.size());
+  Plan plan{static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, seen.tie.has_value() || seen.mask_uncertain};
   if (bounds) {
     add_sample_with_tie(seen, ray);
     plan_shifts(ray, seen, plan);
@@ -145,7 +147,7 @@ Tile::Plan Tile::plan(int x, int y) {
   if (bounds) {
     add_levels(seen, ray);
   }
-  plan.lod_end = static_cast<std::uint32_t>(samples_.size());
+  plan.last_group = static_cast<std::uint32_t>(lod_group_ends_.size());
   return plan;
 }
 
@@ -183,11 +185,20 @@ Tile::Composed Tile::compose(const Sample& sample) const {
 
 Pixel Tile::finish(const Plan& plan) const {
   const Composed centre = compose(samples_[plan.centre]);
-  glm::dvec3 shift(0.0);
+  const auto largest_change = [&](std::uint32_t begin, std::uint32_t end) {
+    glm::dvec3 largest(0.0);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      largest = glm::max(largest, glm::abs(compose(samples_[i]).radiance - centre.radiance));
+    }
+    return largest;
+  };
+  const glm::dvec3 shift = largest_change(plan.centre + 1, plan.shifted_end);
+  // Each texture's level is the driver's to choose, whatever the others': their largest changes add.
   glm::dvec3 lod(0.0);
-  for (std::uint32_t i = plan.centre + 1; i < plan.lod_end; ++i) {
-    glm::dvec3& largest = i < plan.shifted_end ? shift : lod;
-    largest = glm::max(largest, glm::abs(compose(samples_[i]).radiance - centre.radiance));
+  std::uint32_t begin = plan.shifted_end;
+  for (std::uint32_t group = plan.first_group; group < plan.last_group; ++group) {
+    lod += largest_change(begin, lod_group_ends_[group]);
+    begin = lod_group_ends_[group];
   }
   Pixel pixel;
   pixel.radiance = centre.radiance;
@@ -203,6 +214,7 @@ std::vector<Pixel> Tile::render(int x0, int y0, int x1, int y1) {
   materials_.clear();
   layers_.clear();
   samples_.clear();
+  lod_group_ends_.clear();
   std::vector<Plan> plans;
   plans.reserve(static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(y1 - y0));
   for (int y = y0; y < y1; ++y) {

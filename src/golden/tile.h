@@ -37,8 +37,8 @@ class Tile {
   struct Sample {  // layers back to front
     std::uint32_t first, count;
   };
-  struct Plan {  // samples: the centre, then the shifted ones, then the other levels of detail
-    std::uint32_t centre, shifted_end, lod_end;
+  struct Plan {  // samples: the centre, the shifted ones, then a group of other levels of detail for each texture
+    std::uint32_t centre, shifted_end, first_group, last_group;
     bool excluded;
   };
   struct Composed {
@@ -49,7 +49,7 @@ class Tile {
 
   Plan plan(int x, int y);
   void plan_shifts(const Ray& centre_ray, const Seen& centre, Plan& plan);
-  void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {});
+  void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {}, const Hit* varied = nullptr);
   void add_sample_with_tie(Seen& seen, const Ray& ray);
   void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
   bool interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const;
@@ -65,6 +65,7 @@ class Tile {
   std::vector<Shaded<double>> shaded_;
   std::vector<LayerRef> layers_;
   std::vector<Sample> samples_;
+  std::vector<std::uint32_t> lod_group_ends_;  // into samples_
 };
 
 }  // namespace sheen::golden

@@ -135,9 +135,11 @@ bool Tracer::Impl::kept_by_mask(const Hit& hit, Query& query) const {
   const Placed& placed = geometry.placed(hit.triangle);
   const double cutoff = placed.material->alpha_cutoff;
   const bool kept = reader.opacity(hit, *query.ray) >= cutoff;
-  if (query.judge_mask && reader.needs_lod(placed.material_index)) {
-    for (const double level : levels_within(reader.lod_interval(hit, *query.ray))) {
-      if ((reader.opacity(hit, *query.ray, {level}) >= cutoff) != kept) {
+  constexpr std::size_t base_color = 0;
+  const std::optional<LodInterval> range = query.judge_mask ? reader.lod_interval(hit, *query.ray, base_color) : std::nullopt;
+  if (range) {
+    for (const double level : levels_within(*range)) {
+      if ((reader.opacity(hit, *query.ray, {level, base_color}) >= cutoff) != kept) {
         query.uncertain = std::min(query.uncertain, hit.t);
       }
     }
