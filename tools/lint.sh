@@ -19,7 +19,8 @@ echo "clang-format: ${#files[@]} files are as they should be"
 
 sources=()
 for file in "${files[@]}"; do
-  if [[ $file == *.cpp ]]; then sources+=("$file"); fi
+  # Tests are held to the compiler's warnings alone: GoogleTest's macros make most of what clang-tidy would say and of the time it takes.
+  if [[ $file == *.cpp && ($file != *_test.cpp || $# -gt 0) ]]; then sources+=("$file"); fi
 done
 # A source that the build does not know is an error too: nothing would check it.
 for source in "${sources[@]}"; do
