@@ -74,15 +74,14 @@ double residual_of(const std::vector<Pixel>& pixels, const std::vector<glm::dvec
 
 /// Radiance is affine in the factor, L(f) = L(1) + (f-1)(L(1) - L(0)), so weighted least squares has a closed form:
 /// f - 1 = sum w^2 (candidate - L(1)) slope / sum w^2 slope^2.
-bool fit_term(const scene::Scene& scene, const golden::Settings& settings, const std::vector<Pixel>& pixels, const Term& term,
-              TermFit& fit) {
+bool fit_term(const golden::Probe& probe, const std::vector<Pixel>& pixels, const Term& term, TermFit& fit) {
   golden::TermFactors without;
   without.*term.factor = 0;
   std::vector<glm::dvec3> slopes;
   double above = 0;
   double below = 0;
   for (const Pixel& pixel : pixels) {
-    const glm::dvec3 slope = pixel.radiance - golden::pixel_terms(scene, settings, pixel.x, pixel.y, without).radiance;
+    const glm::dvec3 slope = pixel.radiance - probe.terms(pixel.x, pixel.y, without).radiance;
     slopes.push_back(slope);
     for (int c = 0; c < 3; ++c) {
       const double w2 = pixel.weight[c] * pixel.weight[c];
@@ -124,13 +123,14 @@ Diagnosis diagnose(const scene::Scene& scene, const golden::Settings& settings, 
   }
   diagnosis.x = verdict.worst_x;
   diagnosis.y = verdict.worst_y;
-  diagnosis.terms = golden::pixel_terms(scene, settings, diagnosis.x, diagnosis.y);
+  const golden::Probe probe(scene, settings);
+  diagnosis.terms = probe.terms(diagnosis.x, diagnosis.y);
   if (verdict.status != Status::Fail) {
     return diagnosis;
   }
   std::vector<Pixel> pixels;
   for (Pixel& pixel : pick_pixels(candidate, golden, rules)) {
-    const golden::PixelTerms made_of = golden::pixel_terms(scene, settings, pixel.x, pixel.y);
+    const golden::PixelTerms made_of = probe.terms(pixel.x, pixel.y);
     if (!made_of.covered) {
       continue;
     }
@@ -146,7 +146,7 @@ Diagnosis diagnose(const scene::Scene& scene, const golden::Settings& settings, 
   diagnosis.residual = residual_of(pixels, {}, 1);
   for (const Term& term : terms) {
     TermFit fit;
-    if (fit_term(scene, settings, pixels, term, fit)) {
+    if (fit_term(probe, pixels, term, fit)) {
       diagnosis.fits.push_back(fit);
     }
   }

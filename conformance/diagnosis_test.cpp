@@ -35,12 +35,13 @@ class DiagnosisTest : public testing::Test {
   /// The picture a viewer with these factors would draw.
   image::Image drawn_with(const golden::TermFactors& factors) {
     image::Image image = golden_;
+    const golden::Probe probe(scene_, settings_);
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
         if (golden_.at(x, y, 3) == 0.0F) {
           continue;
         }
-        const glm::dvec3 radiance = golden::pixel_terms(scene_, settings_, x, y, factors).radiance;
+        const glm::dvec3 radiance = probe.terms(x, y, factors).radiance;
         for (int c = 0; c < 3; ++c) {
           image.at(x, y, c) = static_cast<float>(radiance[c]);
         }

@@ -89,8 +89,11 @@ image::Image render(const scene::Scene& scene, const Settings& settings) {
   return out;
 }
 
-PixelTerms pixel_terms(const scene::Scene& scene, const Settings& settings, int x, int y, const TermFactors& factors) {
-  const Frame frame(scene, settings);
+Probe::Probe(const scene::Scene& scene, const Settings& settings) : frame_(std::make_unique<Frame>(scene, settings)) {}
+Probe::~Probe() = default;
+
+PixelTerms Probe::terms(int x, int y, const TermFactors& factors) const {
+  const Frame& frame = *frame_;
   const Ray ray = frame.rays.through(x + 0.5, y + 0.5);
   Seen seen;
   frame.tracer.trace(ray, false, seen);

@@ -64,7 +64,20 @@ struct PixelTerms {
   std::vector<LightTerms> lights;
 };
 
-/// The terms at the centre of pixel (x, y), rows from the top, of the nearest surface.
-PixelTerms pixel_terms(const scene::Scene& scene, const Settings& settings, int x, int y, const TermFactors& factors = {});
+struct Frame;
+
+/// A scene made ready to be asked for the terms of its pixels.
+class Probe {
+ public:
+  /// The arguments must outlive this. Throws as render().
+  Probe(const scene::Scene& scene, const Settings& settings);
+  ~Probe();
+
+  /// The terms at the centre of pixel (x, y), rows from the top, of the nearest surface.
+  PixelTerms terms(int x, int y, const TermFactors& factors = {}) const;
+
+ private:
+  std::unique_ptr<const Frame> frame_;
+};
 
 }  // namespace sheen::golden

@@ -166,7 +166,8 @@ TEST(Render, LayersReadTheirOwnChannels) {
   m.clearcoat.factor_texture = info;
   m.clearcoat.roughness_factor = 1.0;
   m.clearcoat.roughness_texture = info;
-  const PixelTerms t = pixel_terms(s, test::settings_for(4, 4), 1, 1);
+  const Settings settings = test::settings_for(4, 4);
+  const PixelTerms t = Probe(s, settings).terms(1, 1);
   ASSERT_TRUE(t.covered);
   EXPECT_NEAR(t.roughness, 0.4, 1e-7);
   EXPECT_NEAR(t.metallic, 0.6, 1e-7);
@@ -295,7 +296,7 @@ TEST(Render, TermsAddUpToThePixel) {
                                           {test::directional({1.0, 0.5, 1.0}), test::directional({-1.0, 0.5, 1.0})});
   const Settings settings = test::settings_for(32, 32);
   const image::Image im = render(s, settings);
-  const PixelTerms t = pixel_terms(s, settings, 14, 12);
+  const PixelTerms t = Probe(s, settings).terms(14, 12);
   EXPECT_TRUE(t.covered);
   EXPECT_EQ(t.material, "cloth");
   ASSERT_EQ(t.lights.size(), 2u);
@@ -308,7 +309,7 @@ TEST(Render, TermsAddUpToThePixel) {
     EXPECT_NEAR(im.at(14, 12, c), t.radiance[c], 1e-6);
   }
   EXPECT_NEAR(t.lights[1].scale, std::min(1.0 - 0.7 * t.e_v, 1.0 - 0.7 * t.lights[1].e_l), 1e-12);
-  EXPECT_FALSE(pixel_terms(s, settings, 0, 0).covered);
+  EXPECT_FALSE(Probe(s, settings).terms(0, 0).covered);
 }
 
 TEST(Render, WrongScenesAndViewsAreErrors) {
