@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "golden/frame.h"
 #include "golden/test_scenes.h"
 
 namespace sheen::golden {
@@ -113,6 +114,35 @@ TEST(Bound, EdgesBetweenFacesOfOneSurfaceAreNotExcluded) {
   const double difference = 0.9 / 3.14159265358979 * (left.z - right.z);
   EXPECT_GT(golden.at(8, 5, 4), difference) << "either face may be shown";
   EXPECT_LT(golden.at(6, 5, 4), 0.01 * difference);
+}
+
+TEST(Bound, HoldsATriangleCarriedOnBeyondItsEdge) {
+  // A driver whose grid moves an edge may shade a pixel with a triangle that ends beside it, at attributes beyond its own. Here that triangle
+  // is a strip narrower than the step: samples moved by the step meet its flat neighbours, and only the strip carried on shows what may come.
+  scene::Primitive fold;
+  const float left = 1.0f / 16.0f - 0.00375f;  // a pixel's centre lies at 1/16
+  const float right = 1.0f / 16.0f + 0.00375f;
+  fold.positions = {{-2, -2, 0}, {left, -2, 0}, {left, 2, 0}, {-2, 2, 0}, {left, -2, 0}, {right, -2, 0}, {right, 2, 0}, {left, 2, 0},
+                    {right, -2, 0}, {2, -2, 0}, {2, 2, 0}, {right, 2, 0}};
+  const glm::vec3 up(0.0f, 0.0f, 1.0f);
+  const glm::vec3 one(-0.5f, 0.0f, 1.0f);
+  const glm::vec3 other(0.5f, 0.0f, 1.0f);
+  fold.normals = {up, up, up, up, one, other, other, one, up, up, up, up};
+  fold.indices = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11};
+  const scene::Scene s =
+      test::scene_with(fold, test::lambertian({0.9, 0.9, 0.9, 1.0}), test::orthographic_at(5.0, 1.0), {test::directional({1.0, 0.0, 1.0})});
+  Settings settings = test::settings_for(16, 16, true);
+  settings.subpixel_bits = 4;
+  const image::Image golden = render(s, settings);
+  const Frame frame(s, settings);
+  Seen seen;
+  const Ray centre = frame.rays.through(8.5, 5.5);
+  frame.tracer.trace(centre, false, seen);
+  const std::optional<Hit> there = frame.geometry.meet(seen.nearest->triangle, frame.rays.through(8.5 + 1.0 / 16, 5.5 + 1.0 / 16));
+  ASSERT_LT(std::min({there->weights.x, there->weights.y, there->weights.z}), 0.0) << "the shifted sample lies beyond this triangle";
+  const auto radiance = shade(frame.reader.surface(*there, centre), {}, frame.lighting(), NoListener{}).radiance;
+  EXPECT_GT(std::abs(radiance.r - golden.at(8, 5, 0)), 0.1 * golden.at(8, 5, 0)) << "far more than the rest of the bound";
+  EXPECT_LE(std::abs(radiance.r - golden.at(8, 5, 0)), golden.at(8, 5, 4));
 }
 
 TEST(Bound, SurfacesAtOneDepthAreExcludedAndTheFirstInTheFileIsShown) {

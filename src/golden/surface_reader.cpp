@@ -171,6 +171,54 @@ std::optional<LodInterval> SurfaceReader::lod_interval(const Hit& hit, const Ray
   return lod_interval(s, hit, footprint(hit, ray, {0.0, slot}));
 }
 
+std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const {
+  const std::optional<LodInterval> range = lod_interval(hit, ray, slot);
+  if (!range) {
+    return {};
+  }
+  std::vector<double> levels = levels_within(*range);
+  const Material& m = materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)];
+  const Slot& s = slot_of(m, slot);
+  if (&s != &m.normal && &s != &m.clearcoat_normal) {
+    return levels;
+  }
+  const double scale = &s == &m.normal ? m.source->normal_scale : m.source->clearcoat.normal_scale;
+  const glm::dvec3 normal = interpolated_normal(hit);
+  const auto normal_at = [&](double level) { return mapped_normal(s, scale, normal, hit, footprint(hit, ray, {level, slot})); };
+  const glm::dvec3 view = rays_.toward_camera(ray);
+  std::vector<double> finer{levels.front()};
+  glm::dvec3 before = normal_at(levels.front());
+  const auto add = [&](double level, const glm::dvec3& after) {
+    // Sheen's visibility has a cusp where the normal stands across the view.
+    double low = finer.back();
+    double high = level;
+    const double side = glm::dot(before, view);
+    if (side * glm::dot(after, view) < 0.0) {
+      for (int halvings = 0; halvings < 16; ++halvings) {
+        const double middle = 0.5 * (low + high);
+        (side * glm::dot(normal_at(middle), view) > 0.0 ? low : high) = middle;
+      }
+      finer.push_back(low);
+      finer.push_back(high);
+    }
+    finer.push_back(level);
+    before = after;
+  };
+  constexpr double largest_angle = 0.01;
+  constexpr double most = 64.0;  // between two quarters: half a turn would need 5 times as many
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const glm::dvec3 after = normal_at(levels[i]);
+    const double angle = std::atan2(glm::length(glm::cross(before, after)), glm::dot(before, after));
+    const double steps = std::clamp(std::ceil(angle / largest_angle), 1.0, most);
+    for (double step = 1.0; step < steps; step += 1.0) {
+      const double level = levels[i - 1] + (levels[i] - levels[i - 1]) * step / steps;
+      add(level, normal_at(level));
+    }
+    add(levels[i], after);
+  }
+  return finer;
+}
+
 glm::dvec4 SurfaceReader::read(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
   if (!slot.texture) {
     return glm::dvec4(1.0);

@@ -43,6 +43,10 @@ class SurfaceReader {
   /// From the least level allowed for one texture of the surface at a hit to the most; none where it has no mipmaps or is not there.
   std::optional<LodInterval> lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const;
 
+  /// levels_within() for one texture at a hit; of a normal map as many more as leave no more than a hundredth of a radian between the
+  /// normals of two neighbours: a lobe may rise and fall again while a normal swings past it. Empty where the level changes nothing.
+  std::vector<double> levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const;
+
   /// What shading needs at a hit of a ray; weights outside [0, 1] extrapolate.
   Surface<double> surface(const Hit& hit, const Ray& ray, LodChoice lod = {}) const;
 

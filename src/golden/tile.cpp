@@ -95,11 +95,11 @@ void Tile::add_levels(const Seen& seen, const Ray& ray) {
       return;
     }
     for (std::size_t slot = 0; slot < SurfaceReader::slot_count; ++slot) {
-      const std::optional<LodInterval> range = frame_.reader.lod_interval(hit, ray, slot);
-      if (!range) {
+      const std::vector<double> levels = frame_.reader.levels_to_try(hit, ray, slot);
+      if (levels.empty()) {
         continue;
       }
-      for (const double level : levels_within(*range)) {
+      for (const double level : levels) {
         add_sample(seen, ray, {level, slot}, &hit);
       }
       lod_group_ends_.push_back(static_cast<std::uint32_t>(samples_.size()));
@@ -193,11 +193,19 @@ Pixel Tile::finish(const Plan& plan) const {
     return largest;
   };
   const glm::dvec3 shift = largest_change(plan.centre + 1, plan.shifted_end);
+  // What may come between two levels that were tried: beyond the nearer one by half of what they differ.
+  const auto between = [&](std::uint32_t begin, std::uint32_t end) {
+    glm::dvec3 largest(0.0);
+    for (std::uint32_t i = begin + 1; i < end; ++i) {
+      largest = glm::max(largest, 0.5 * glm::abs(compose(samples_[i]).radiance - compose(samples_[i - 1]).radiance));
+    }
+    return largest;
+  };
   // Each texture's level is the driver's to choose, whatever the others': their largest changes add.
   glm::dvec3 lod(0.0);
   std::uint32_t begin = plan.shifted_end;
   for (std::uint32_t group = plan.first_group; group < plan.last_group; ++group) {
-    lod += largest_change(begin, lod_group_ends_[group]);
+    lod += largest_change(begin, lod_group_ends_[group]) + between(begin, lod_group_ends_[group]);
     begin = lod_group_ends_[group];
   }
   Pixel pixel;

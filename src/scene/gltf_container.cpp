@@ -70,7 +70,9 @@ void split_glb(Container& container, const std::string& file) {
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, const std::string& file, const std::string& element) {
   std::error_code status;
   if (!std::filesystem::is_regular_file(path, status)) {
-    throw Error(file, element, std::filesystem::exists(path, status) ? "is not a regular file" : "there is no such file: " + path.string());
+    throw Error(file, element,
+                std::filesystem::exists(path, status) ? "is not a regular file"
+                                                      : "there is no such file: " + path.string() + " (glTF 2.0, section 2.8)");
   }
   const std::uintmax_t size = std::filesystem::file_size(path, status);
   if (status) {

@@ -3,6 +3,7 @@
 #include <glm/vec3.hpp>
 
 #include "scene/gltf_fixture_test.h"
+#include "scene/picture_codecs.h"
 
 namespace sheen::scene::test {
 namespace {
@@ -70,12 +71,30 @@ TEST(GltfTextures, PicturesMayStandInFilesAndDataUris) {
 TEST(GltfTextures, PicturesThatCannotBeDecodedAreRefused) {
   const Bytes good = png(4, 4, 8, std::vector<std::uint16_t>(64, 7));
   EXPECT_TRUE(names(error_of(textured(Bytes(good.begin(), good.begin() + 60))), "images[0]", "cannot be decoded"));
-  EXPECT_TRUE(names(error_of(textured(Bytes(good.begin(), good.begin() + 12))), "images[0]", "truncated"));
+  EXPECT_TRUE(names(error_of(textured(Bytes(good.begin(), good.begin() + 12))), "images[0]", "cannot be decoded as PNG"));
   EXPECT_TRUE(names(error_of(textured({'G', 'I', 'F', '8', '9', 'a', 0, 0})), "images[0]", "neither PNG nor JPEG"));
   EXPECT_TRUE(names(error_of(textured(png(20000, 1, 8, {0}))), "images[0]", "more than 16384"));
   Bytes cut = jpeg();
   cut.resize(100);
   EXPECT_TRUE(names(error_of(textured(cut)), "images[0]", "truncated"));
+  cut = jpeg();
+  cut.resize(cut.size() - 8);  // in the middle of the coefficients
+  EXPECT_TRUE(names(error_of(textured(cut)), "images[0]", "cannot be decoded as JPEG"));
+}
+
+TEST(GltfTextures, NoDamagedJpegGetsFurtherThanItsDecoder) {
+  const Bytes whole = jpeg();
+  for (std::size_t at = 2; at < whole.size(); ++at) {
+    for (const int flip : {0x01, 0x10, 0x80, 0xFF}) {
+      Bytes damaged = whole;
+      damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ flip);
+      Picture picture;
+      if (decode_picture(damaged, picture).empty()) {
+        EXPECT_EQ(picture.codes.size(),
+                  std::size_t{4} * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+      }
+    }
+  }
 }
 
 TEST(GltfTextures, OnlyPicturesThatAMaterialUsesAreLoaded) {

@@ -15,11 +15,11 @@
 
 namespace sheen::scene {
 
-/// What is wrong with a scene: the file, the element in it ("materials[2] 'velvet'") and the rule it breaks.
+/// What is wrong with a scene: the file, the element in it ("materials[2] 'velvet'") and the rule it breaks. Element and rule may quote a
+/// hostile file: each is shown in at most some 400 bytes, control characters and whatever is no UTF-8 as \xNN.
 class Error : public std::runtime_error {
  public:
-  Error(const std::string& file, const std::string& element, const std::string& rule)
-      : std::runtime_error(file + ": " + element + ": " + rule) {}
+  Error(const std::string& file, const std::string& element, const std::string& rule);
 };
 
 enum class Wrap { Repeat, MirroredRepeat, ClampToEdge };

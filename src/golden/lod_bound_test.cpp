@@ -1,0 +1,92 @@
+// The freedom in the level of detail: whatever levels a driver picks for the textures of a surface, its value must stay inside the bound.
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "golden/frame.h"
+#include "golden/test_scenes.h"
+
+namespace sheen::golden {
+namespace {
+
+constexpr int size = 32;
+
+/// A square tilted away from the camera, so that textures shrink more along one axis than the other.
+scene::Scene tilted_cloth() {
+  scene::Material m;
+  m.metallic_factor = 0.2;
+  m.roughness_factor = 0.3;
+  m.sheen.color_factor = {0.9, 0.5, 0.7};
+  m.sheen.roughness_factor = 0.3;
+  scene::Scene s = test::scene_with(test::square(3.0), m, test::camera_at(3.0), {test::directional({0.0, 1.0, 1.0})});
+  s.instances[0].world_from_local = glm::rotate(glm::dmat4(1.0), -1.2, glm::dvec3(1.0, 0.0, 0.0));
+  return s;
+}
+
+scene::TextureInfo add_noise(scene::Scene& s, unsigned seed, int low, int high, int blue) {
+  std::mt19937 generator(seed);
+  std::uniform_int_distribution<int> code(low, high);
+  return test::add_texture(s, test::picture(64, 64, [&](int, int) { return glm::ivec4(code(generator), code(generator), blue, 255); }));
+}
+
+/// Holds every pixel of the golden against forty drivers: vary() gives the surface such a driver sees, with level_in(slot) for the level it
+/// picks, at random, among those allowed.
+template <class Vary>
+void hold_against_bound(const scene::Scene& s, const Vary& vary) {
+  const Settings settings = test::settings_for(size, size, true);
+  const image::Image golden = render(s, settings);
+  const Frame frame(s, settings);
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  Seen seen;
+  int held = 0;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const Ray ray = frame.rays.through(x + 0.5, y + 0.5);
+      frame.tracer.trace(ray, false, seen);
+      if (!seen.nearest) {
+        continue;
+      }
+      ++held;
+      for (int i = 0; i < 40; ++i) {
+        const auto level_in = [&](std::size_t slot) {
+          const std::optional<LodInterval> range = frame.reader.lod_interval(*seen.nearest, ray, slot);
+          return LodChoice{range ? range->low + unit(generator) * (range->high - range->low) : 0.0, slot};
+        };
+        const Surface<double> surface = vary(frame.reader, *seen.nearest, ray, level_in);
+        const auto radiance = shade(surface, {true, false}, frame.lighting(), NoListener{}).radiance;
+        const double value[3] = {radiance.r, radiance.g, radiance.b};
+        for (int c = 0; c < 3; ++c) {
+          ASSERT_LE(std::abs(value[c] - golden.at(x, y, c)), golden.at(x, y, 4 + c)) << x << " " << y << " channel " << c;
+        }
+      }
+    }
+  }
+  EXPECT_GT(held, size * size / 3);
+}
+
+constexpr std::size_t base_color_slot = 0, normal_slot = 2, sheen_color_slot = 6;  // SurfaceReader's order
+
+TEST(LodBound, HoldsEveryLevelOfANormalMapThatBendsFarAndOften) {
+  scene::Scene s = tilted_cloth();
+  s.materials[0].normal_texture = add_noise(s, 1, 60, 200, 200);
+  hold_against_bound(s, [](const SurfaceReader& reader, const Hit& hit, const Ray& ray, const auto& level_in) {
+    return reader.surface(hit, ray, level_in(normal_slot));
+  });
+}
+
+TEST(LodBound, HoldsWhenADriverPicksAnotherLevelForEachTexture) {
+  scene::Scene s = tilted_cloth();
+  s.materials[0].base_color_texture = add_noise(s, 2, 0, 255, 128);
+  s.materials[0].sheen.color_texture = s.materials[0].base_color_texture;
+  s.materials[0].sheen.color_texture.transform = glm::dmat3(4.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 1.0);
+  hold_against_bound(s, [](const SurfaceReader& reader, const Hit& hit, const Ray& ray, const auto& level_in) {
+    Surface<double> surface = reader.surface(hit, ray, level_in(base_color_slot));
+    surface.sheen_color = reader.surface(hit, ray, level_in(sheen_color_slot)).sheen_color;
+    return surface;
+  });
+}
+
+}  // namespace
+}  // namespace sheen::golden
