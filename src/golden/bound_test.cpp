@@ -117,13 +117,14 @@ TEST(Bound, EdgesBetweenFacesOfOneSurfaceAreNotExcluded) {
 }
 
 TEST(Bound, HoldsATriangleCarriedOnBeyondItsEdge) {
-  // A driver whose grid moves an edge may shade a pixel with a triangle that ends beside it, at attributes beyond its own. Here that triangle
-  // is a strip narrower than the step: samples moved by the step meet its flat neighbours, and only the strip carried on shows what may come.
+  // A driver whose grid moves an edge may shade a pixel with a triangle that ends beside it, at attributes beyond its own. Here that
+  // triangle is a strip narrower than the step: samples moved by the step meet its flat neighbours, and only the strip carried on shows
+  // what may come.
   scene::Primitive fold;
   const float left = 1.0f / 16.0f - 0.00375f;  // a pixel's centre lies at 1/16
   const float right = 1.0f / 16.0f + 0.00375f;
-  fold.positions = {{-2, -2, 0}, {left, -2, 0}, {left, 2, 0}, {-2, 2, 0}, {left, -2, 0}, {right, -2, 0}, {right, 2, 0}, {left, 2, 0},
-                    {right, -2, 0}, {2, -2, 0}, {2, 2, 0}, {right, 2, 0}};
+  fold.positions = {{-2, -2, 0},   {left, -2, 0}, {left, 2, 0},   {-2, 2, 0}, {left, -2, 0}, {right, -2, 0},
+                    {right, 2, 0}, {left, 2, 0},  {right, -2, 0}, {2, -2, 0}, {2, 2, 0},     {right, 2, 0}};
   const glm::vec3 up(0.0f, 0.0f, 1.0f);
   const glm::vec3 one(-0.5f, 0.0f, 1.0f);
   const glm::vec3 other(0.5f, 0.0f, 1.0f);

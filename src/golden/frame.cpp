@@ -19,7 +19,7 @@ Frame::Frame(const scene::Scene& scene_in, const Settings& settings_in)
       settings(settings_in),
       rays(make_rays(scene_in, settings_in.view)),
       geometry(scene_in),
-      reader(scene_in, geometry, rays),
+      reader(scene_in, geometry, rays, settings_in.environment != nullptr),
       tracer(scene_in, geometry, reader, rays),
       lights(prepare_lights(scene_in.lights)) {
   const bool has_sheen = std::any_of(scene.instances.begin(), scene.instances.end(), [&](const scene::Instance& instance) {

@@ -9,6 +9,7 @@
 
 #include "albedo/sheen_model.h"
 #include "image/image.h"
+#include "scene/environment.h"
 #include "scene/scene.h"
 #include "scene/view.h"
 
@@ -23,7 +24,8 @@ struct Settings {
   /// SUBPIXEL_BITS of the driver the golden is to judge: its grid may move a sample by 2^-bits pixel along each axis (OpenGL ES 3.0.6,
   /// section 6.2, table 6.29: at least 4).
   int subpixel_bits = 8;
-  bool bounds = true;  ///< whether to compute the bound channels
+  const scene::Environment* environment = nullptr;  ///< light from everywhere, besides the scene's lights; must outlive its use
+  bool bounds = true;                               ///< whether to compute the bound channels
   /// Called now and then with the share done in [0, 1], from any thread.
   std::function<void(double)> progress;
 };

@@ -18,6 +18,7 @@ struct Surface {
   Real clearcoat;   ///< the coat's strength, [0, 1]
   Real coat_alpha;  ///< square of clearcoatRoughness
   brdf::Rgb<Real> emission;
+  Real occlusion;  ///< what is left of environment light: 1 + strength (texture.r - 1)
 };
 
 /// Which layers a material has; uniform over a batch.

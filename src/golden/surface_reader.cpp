@@ -54,7 +54,7 @@ std::vector<double> levels_within(const LodInterval& range) {
   return levels;
 }
 
-SurfaceReader::SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays)
+SurfaceReader::SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment)
     : geometry_(geometry), rays_(rays), materials_(scene.materials.size()) {
   TextureStore store(scene);
   std::vector<bool> used(scene.materials.size(), false);
@@ -63,12 +63,12 @@ SurfaceReader::SurfaceReader(const scene::Scene& scene, const Geometry& geometry
   }
   for (std::size_t i = 0; i < materials_.size(); ++i) {
     if (used[i]) {
-      read_material(scene, store, static_cast<int>(i));
+      read_material(scene, store, static_cast<int>(i), environment);
     }
   }
 }
 
-void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store, int index) {
+void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store, int index, bool environment) {
   using scene::ColorSpace;
   const scene::Material& source = scene.materials[static_cast<std::size_t>(index)];
   Material& m = materials_[static_cast<std::size_t>(index)];
@@ -91,6 +91,9 @@ void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store
   m.base_color = slot(source.base_color_texture, ColorSpace::Srgb);
   m.metallic_roughness = slot(source.metallic_roughness_texture, ColorSpace::Linear);
   m.normal = slot(source.normal_texture, ColorSpace::Linear);
+  if (environment) {
+    m.occlusion = slot(source.occlusion_texture, ColorSpace::Linear);
+  }
   m.emissive = slot(source.emissive_texture, ColorSpace::Srgb);
   m.specular = slot(source.specular.factor_texture, ColorSpace::Linear);
   m.specular_color = slot(source.specular.color_texture, ColorSpace::Srgb);
@@ -157,9 +160,9 @@ LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const 
 }
 
 const SurfaceReader::Slot& SurfaceReader::slot_of(const Material& m, std::size_t slot) {
-  const std::array<const Slot*, slot_count> slots{&m.base_color, &m.metallic_roughness,  &m.normal,          &m.emissive,
-                                                  &m.specular,   &m.specular_color,      &m.sheen_color,     &m.sheen_roughness,
-                                                  &m.clearcoat,  &m.clearcoat_roughness, &m.clearcoat_normal};
+  const std::array<const Slot*, slot_count> slots{&m.base_color, &m.metallic_roughness,  &m.normal,           &m.emissive,
+                                                  &m.specular,   &m.specular_color,      &m.sheen_color,      &m.sheen_roughness,
+                                                  &m.clearcoat,  &m.clearcoat_roughness, &m.clearcoat_normal, &m.occlusion};
   return *slots[slot];
 }
 
@@ -296,6 +299,7 @@ Surface<double> SurfaceReader::surface(const Hit& hit, const Ray& ray, LodChoice
   s.base.dielectric_f0 = brdf::dielectric_f0(source.ior, rgb(specular_color));
   s.base.specular = source.specular.factor * read(m.specular, hit, f).w;
   s.emission = rgb(source.emissive_factor * glm::dvec3(read(m.emissive, hit, f)));
+  s.occlusion = 1.0 + (m.occlusion.texture ? source.occlusion_strength * (read(m.occlusion, hit, f).x - 1.0) : 0.0);
   if (m.layers.sheen) {
     s.sheen_color = rgb(source.sheen.color_factor * glm::dvec3(read(m.sheen_color, hit, f)));
     s.sheen_roughness = source.sheen.roughness_factor * read(m.sheen_roughness, hit, f).w;

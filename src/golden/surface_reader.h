@@ -30,15 +30,16 @@ std::vector<double> levels_within(const LodInterval& range);
 /// Reads materials: everything between a hit and its shading.
 class SurfaceReader {
  public:
-  /// Decodes every texture that a material in use reads. The arguments must outlive this. Throws scene::Error.
-  SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays);
+  /// Decodes every texture that a material in use reads: occlusion only for environment light. The references must outlive this. Throws
+  /// scene::Error.
+  SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment);
 
   Layers layers(int material) const { return materials_[static_cast<std::size_t>(material)].layers; }
   /// Whether a material's textures depend on the level of detail; else LodChoice changes nothing.
   bool needs_lod(int material) const { return materials_[static_cast<std::size_t>(material)].needs_lod; }
 
   /// Textures a material may have; base colour is the first.
-  static constexpr std::size_t slot_count = 11;
+  static constexpr std::size_t slot_count = 12;
 
   /// From the least level allowed for one texture of the surface at a hit to the most; none where it has no mipmaps or is not there.
   std::optional<LodInterval> lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const;
@@ -63,12 +64,12 @@ class SurfaceReader {
     const scene::Material* source = nullptr;
     Layers layers;
     bool needs_lod = false;
-    Slot base_color, metallic_roughness, normal, emissive, specular, specular_color;
+    Slot base_color, metallic_roughness, normal, occlusion, emissive, specular, specular_color;
     Slot sheen_color, sheen_roughness, clearcoat, clearcoat_roughness, clearcoat_normal;
   };
   struct Footprint;
   static const Slot& slot_of(const Material& material, std::size_t slot);
-  void read_material(const scene::Scene& scene, TextureStore& store, int index);
+  void read_material(const scene::Scene& scene, TextureStore& store, int index, bool environment);
   glm::dvec2 texcoord(const Slot& slot, const Hit& hit, const glm::dvec3& weights) const;
   LodInterval lod_interval(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec4 read(const Slot& slot, const Hit& hit, const Footprint& footprint) const;

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include "golden/shade_all.h"
+#include "golden/uniform_light.h"
 
 namespace sheen::golden {
 namespace {
@@ -164,7 +165,21 @@ void Tile::shade_surfaces() {
       ++end;
     }
     shade_all(surfaces_.data(), order.data() + begin, end - begin, frame_.reader.layers(material), lighting, shaded_.data());
+    if (frame_.settings.environment != nullptr) {
+      add_environment(order.data() + begin, end - begin, lighting);
+    }
     begin = end;
+  }
+}
+
+void Tile::add_environment(const std::uint32_t* order, std::size_t count, const Lighting& lighting) {
+  const Layers layers = frame_.reader.layers(materials_[order[0]]);
+  const glm::dvec3 uniform = frame_.settings.environment->uniform;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Shaded<double> more = shade_uniform(surfaces_[order[i]], layers, lighting, {uniform.x, uniform.y, uniform.z});
+    Shaded<double>& shaded = shaded_[order[i]];
+    shaded.radiance = shaded.radiance + more.radiance;
+    shaded.magnitude = shaded.magnitude + more.magnitude;
   }
 }
 

@@ -56,6 +56,7 @@ class Tile {
   Seen extended(const Seen& centre, const Ray& ray) const;
   void add_levels(const Seen& seen, const Ray& ray);
   void shade_surfaces();
+  void add_environment(const std::uint32_t* order, std::size_t count, const Lighting& lighting);
   Composed compose(const Sample& sample) const;
   Pixel finish(const Plan& plan) const;
 

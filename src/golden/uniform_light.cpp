@@ -1,0 +1,192 @@
+#include "golden/uniform_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "albedo/quadrature.h"
+#include "brdf/fresnel.h"
+
+namespace sheen::golden {
+namespace {
+
+// One dimension at a time, by tanh-sinh, whose nodes crowd at both ends. Over lambda = N.L: panels that end at N.V, where the GGX lobe
+// peaks and the smaller of two scales changes over, and at 0.5, where Lambda changes branch. Over the azimuth phi, 0 in the mirror
+// direction's, where the lobe peaks; with s the sines,
+//
+//   1 + V.L  = A + B sin^2(phi/2),   A = (mu + lambda)^2 / (1 + mu lambda + s_v s_l),   B = 2 s_v s_l
+//   D        = alpha^2/pi (1 + (A - d) / (d + B sin^2(phi/2)))^2,   d = A (S + alpha^2 (1 - S))
+//   S        = sin^2 of half the angle between L and the mirror direction = (mu - lambda)^2 / (2 (1 - mu lambda + s_v s_l))
+//
+// Without the Fresnel weight the azimuth has closed forms: the integrals of 1, 1/(d + B sin^2) and its square over a turn are 2 pi,
+// 2 pi / sqrt(d (d+B)) and 2 pi (d + B/2) / (d (d+B))^(3/2).
+const albedo::Rule& tanh_sinh() {
+  static const albedo::Rule rule = albedo::make_rule(48, 3.4, 1);
+  return rule;
+}
+
+struct AzimuthNode {
+  double sin2, weight;  // sin^2(phi/2); of the integral over a whole turn
+};
+
+const std::vector<AzimuthNode>& azimuth_nodes() {
+  static const std::vector<AzimuthNode> nodes = [] {
+    std::vector<AzimuthNode> made;
+    const albedo::Rule& rule = tanh_sinh();
+    for (std::size_t i = 0; i < rule.left.size(); ++i) {
+      const double sine = std::sin(0.5 * brdf::pi * rule.left[i]);
+      made.push_back({sine * sine, 2 * brdf::pi * rule.weight[i]});
+    }
+    return made;
+  }();
+  return nodes;
+}
+
+struct Cosine {
+  double lambda, from_mu;  // the latter without cancellation
+};
+
+// What the integrands are at one cosine, azimuth integrated, without s.
+BaseIntegrals around(double alpha, double mu, const Cosine& l) {
+  const double sine_product = std::sqrt((1 - mu) * (1 + mu) * (1 - l.lambda) * (1 + l.lambda));
+  const double a = (mu + l.lambda) * (mu + l.lambda) / (1 + mu * l.lambda + sine_product);
+  const double b = 2 * sine_product;
+  const double s = std::min(l.from_mu * l.from_mu / (2 * (1 - mu * l.lambda + sine_product)), 1.0);
+  const double d = a * (s + alpha * alpha * (1 - s));
+  const double lobe = alpha > 0 ? alpha * alpha / brdf::pi * brdf::smith_visibility(alpha, l.lambda, mu) * l.lambda : 0.0;
+  BaseIntegrals out;
+  out.diffuse = 2 * l.lambda;
+  const double product = d * (d + b);
+  const double root = std::sqrt(product);
+  if (lobe > 0) {
+    out.specular = lobe * 2 * brdf::pi * (1 + 2 * (a - d) / root + (a - d) * (a - d) * (d + 0.5 * b) / (product * root));
+  }
+  // The weight at the peak is taken out, so that nodes meet what is left of it alone.
+  const double at_peak = brdf::schlick_weight(std::min(std::sqrt(0.5 * a), 1.0));
+  double rest = 0;
+  for (const AzimuthNode& node : azimuth_nodes()) {
+    const double one_plus_vl = a + b * node.sin2;
+    const double w = brdf::schlick_weight(std::min(std::sqrt(0.5 * one_plus_vl), 1.0));
+    const double ratio = one_plus_vl / (d + b * node.sin2);
+    out.diffuse_w += node.weight * w;
+    rest += node.weight * (w - at_peak) * ratio * ratio;
+  }
+  out.diffuse_w *= l.lambda / brdf::pi;
+  out.specular_w = lobe > 0 ? at_peak * out.specular + lobe * rest : 0.0;
+  return out;
+}
+
+}  // namespace
+
+BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<double(double)>& scale, const std::vector<double>& kinks) {
+  const albedo::Rule& rule = tanh_sinh();
+  const double mu = n_dot_v;
+  std::vector<double> breaks{0.0, mu, 1.0};
+  breaks.insert(breaks.end(), kinks.begin(), kinks.end());
+  // A change of the half vector by alpha moves N.L by about this.
+  const double width = 2 * alpha * (std::sqrt((1 - mu) * (1 + mu)) + alpha);
+  for (const double widths : {-30.0, -3.0, 3.0, 30.0}) {
+    const double at = mu + widths * width;
+    if (at > 0 && at < 1) {
+      breaks.push_back(at);
+    }
+  }
+  std::sort(breaks.begin(), breaks.end());
+  BaseIntegrals sum;
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    const double a = breaks[k];
+    const double b = breaks[k + 1];
+    const double length = b - a;
+    if (!(length > 0)) {
+      continue;
+    }
+    for (std::size_t i = 0; i < rule.left.size(); ++i) {
+      const bool near_a = rule.left[i] < 0.5;
+      const double offset = near_a ? length * rule.left[i] : -length * rule.right[i];
+      const double end = near_a ? a : b;
+      const Cosine l{end + offset, end == mu ? offset : end + offset - mu};
+      if (!(l.lambda > 0)) {
+        continue;
+      }
+      const BaseIntegrals f = around(alpha, mu, l);
+      const double weight = rule.weight[i] * length * scale(l.lambda);
+      sum.diffuse += weight * f.diffuse;
+      sum.diffuse_w += weight * f.diffuse_w;
+      sum.specular += weight * f.specular;
+      sum.specular_w += weight * f.specular_w;
+    }
+  }
+  if (!(alpha > 0)) {
+    sum.specular = scale(mu);
+    sum.specular_w = sum.specular * brdf::schlick_weight(mu);
+  }
+  return sum;
+}
+
+namespace {
+
+using Color = brdf::Rgb<double>;
+
+// brdf::base_brdf with its integrals in the place of 1/pi, w/pi, D Vis and D Vis w.
+Color base_light(const brdf::Base<double>& base, const BaseIntegrals& in) {
+  const auto schlick = [&](const Color& f0) {
+    const auto of = [&](double f) { return f * in.specular + (1 - f) * in.specular_w; };
+    return Color{of(f0.r), of(f0.g), of(f0.b)};
+  };
+  const double f0 = brdf::max3(base.dielectric_f0);
+  const Color dielectric =
+      base.color * (in.diffuse - base.specular * (f0 * in.diffuse + (1 - f0) * in.diffuse_w)) + schlick(base.dielectric_f0) * base.specular;
+  return dielectric * (1 - base.metallic) + schlick(base.color) * base.metallic;
+}
+
+// Where Lambda changes branch, and where c E(N.L) passes 1 and the scale's clamp sets in.
+std::vector<double> scale_kinks(const SheenLayer<double>& sheen, double c) {
+  std::vector<double> kinks{0.5};
+  double low = albedo::min_n_dot_v;
+  double high = 1;
+  const auto clamped = [&](double n_dot_l) { return c * sheen.e_l(true, n_dot_l) > 1; };
+  if (clamped(low) && !clamped(high)) {
+    for (int i = 0; i < 50; ++i) {
+      const double middle = 0.5 * (low + high);
+      (clamped(middle) ? low : high) = middle;
+    }
+    kinks.push_back(low);
+  }
+  return kinks;
+}
+
+}  // namespace
+
+Shaded<double> shade_uniform(const Surface<double>& surface, Layers layers, const Lighting& lighting, const Color& radiance) {
+  const TermFactors& factors = lighting.factors;
+  const LobeView<double> lobe(surface.normal, surface.view);
+  const LobeView<double> coat(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view);
+  const double k = layers.clearcoat ? brdf::clearcoat_weight(surface.clearcoat, coat.n_dot_v) * factors.coat_weight : 0.0;
+  const Color light = radiance * surface.occlusion;
+  const auto one = [](double) { return 1.0; };
+
+  Color sheen_light{0, 0, 0};
+  BaseIntegrals base;
+  if (layers.sheen) {
+    const SheenLayer<double> sheen(surface, lobe, lighting);
+    sheen_light = surface.sheen_color * (sheen.e_v() * factors.distribution * factors.visibility);
+    if (sheen.two_directions()) {
+      base = base_integrals(
+          surface.base.alpha, lobe.n_dot_v, [&](double n_dot_l) { return sheen.scale(sheen.e_l(true, n_dot_l)); },
+          scale_kinks(sheen, brdf::max3(surface.sheen_color)));
+    } else {
+      const double s = sheen.scale(0.0);
+      base = base_integrals(surface.base.alpha, lobe.n_dot_v, [s](double) { return s; });
+    }
+  } else {
+    base = base_integrals(surface.base.alpha, lobe.n_dot_v, one);
+  }
+  const Color under = (base_light(surface.base, base) * factors.base) * light * (1 - k);
+  const Color cloth = sheen_light * light * (1 - k);
+  const double coat_light = layers.clearcoat ? k * factors.coat_lobe * base_integrals(surface.coat_alpha, coat.n_dot_v, one).specular : 0.0;
+  const Color zero{0, 0, 0};
+  return {under + cloth + light * coat_light, absolute(under) + cloth + light * coat_light, zero, 0.0};
+}
+
+}  // namespace sheen::golden

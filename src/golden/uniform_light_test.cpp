@@ -1,0 +1,145 @@
+#include "golden/uniform_light.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "albedo/directional_albedo.h"
+#include "brdf/base.h"
+
+namespace sheen::golden {
+namespace {
+
+using Color = brdf::Rgb<double>;
+
+/// The hemisphere of N = +Z summed by the midpoint rule over cosine and azimuth, with the formulas as they stand in brdf/.
+BaseIntegrals summed_directly(double alpha, double n_dot_v, double (*scale)(double)) {
+  const int rows = 3000;
+  const int columns = 300;
+  const glm::dvec3 v(std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v);
+  BaseIntegrals sum;
+  for (int i = 0; i < rows; ++i) {
+    // Nodes gather at N.L = 0 and 1: lambda = 3 t^2 - 2 t^3.
+    const double t = (i + 0.5) / rows;
+    const double lambda = t * t * (3.0 - 2.0 * t);
+    const double sine = std::sqrt((1.0 - lambda) * (1.0 + lambda));
+    const double weight = 6.0 * t * (1.0 - t) / rows * 2.0 * brdf::pi / columns * scale(lambda) * lambda;
+    for (int j = 0; j < columns; ++j) {
+      const double phi = brdf::pi * (j + 0.5) / columns;
+      const glm::dvec3 h = glm::normalize(glm::dvec3(sine * std::cos(phi), sine * std::sin(phi), lambda) + v);
+      const double lobe = brdf::ggx_distribution(alpha, h.z, h.x * h.x + h.y * h.y) * brdf::smith_visibility(alpha, lambda, n_dot_v);
+      const double w = brdf::schlick_weight(glm::dot(v, h));
+      sum.diffuse += weight / brdf::pi;
+      sum.diffuse_w += weight * w / brdf::pi;
+      sum.specular += weight * lobe;
+      sum.specular_w += weight * lobe * w;
+    }
+  }
+  return sum;
+}
+
+TEST(BaseIntegrals, MeetTheHemisphereSummedDirectly) {
+  const auto s = [](double n_dot_l) { return 0.3 + 0.5 * n_dot_l; };
+  for (const double alpha : {1.0, 0.4, 0.15}) {
+    for (const double mu : {1.0, 0.6, 0.15}) {
+      const BaseIntegrals ours = base_integrals(alpha, mu, s);
+      const BaseIntegrals direct = summed_directly(alpha, mu, s);
+      EXPECT_NEAR(ours.diffuse, direct.diffuse, 1e-6) << "alpha " << alpha << " n_dot_v " << mu;
+      EXPECT_NEAR(ours.diffuse_w, direct.diffuse_w, 1e-6) << "alpha " << alpha << " n_dot_v " << mu;
+      EXPECT_NEAR(ours.specular, direct.specular, 1e-6) << "alpha " << alpha << " n_dot_v " << mu;
+      EXPECT_NEAR(ours.specular_w, direct.specular_w, 1e-6) << "alpha " << alpha << " n_dot_v " << mu;
+    }
+  }
+}
+
+TEST(BaseIntegrals, KnowClosedForms) {
+  const auto one = [](double) { return 1.0; };
+  // w/pi over the hemisphere seen from above: V.H = cos(theta/2).
+  double expected = 0.0;
+  const int n = 200000;
+  for (int i = 0; i < n; ++i) {
+    const double l = (i + 0.5) / n;
+    expected += 2.0 * l * std::pow(1.0 - std::sqrt(0.5 * (1.0 + l)), 5.0) / n;
+  }
+  EXPECT_NEAR(base_integrals(0.3, 1.0, one).diffuse_w, expected, 1e-10);
+  // A mirror gives back what it sees, and a narrow lobe nearly so.
+  EXPECT_EQ(base_integrals(0.0, 0.6, one).specular, 1.0);
+  EXPECT_NEAR(base_integrals(1e-4, 0.6, one).specular, 1.0, 1e-6);
+  EXPECT_NEAR(base_integrals(1e-4, 0.6, one).specular_w, std::pow(0.4, 5.0), 1e-6);
+  // Single scattering loses energy but makes none.
+  for (const double mu : {1e-4, 1e-3, 0.01, 0.1, 0.5, 1.0}) {
+    for (const double alpha : {1e-6, 1e-3, 0.03, 0.3, 1.0}) {
+      EXPECT_LE(base_integrals(alpha, mu, one).specular, 1.0 + 1e-7) << alpha << ' ' << mu;
+    }
+  }
+}
+
+TEST(BaseIntegrals, HaveConverged) {
+  // Energy leaves a lobe of roughness 1 (alpha = 1) by D = 1/pi: integral of Vis N.L 2 dlambda, with Vis = 1 / (2 (N.L + N.V)).
+  for (const double mu : {1.0, 0.3, 0.01}) {
+    const double exact = 1.0 - mu * std::log((1.0 + mu) / mu);
+    EXPECT_NEAR(base_integrals(1.0, mu, [](double) { return 1.0; }).specular, exact, 1e-9) << mu;
+  }
+}
+
+Surface<double> white_lambert(double n_dot_v) {
+  Surface<double> s{};
+  s.normal = s.coat_normal = {0.0, 0.0, 1.0};
+  s.view = {std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v};
+  s.base.color = {1.0, 1.0, 1.0};
+  s.base.alpha = 0.25;
+  s.base.dielectric_f0 = {0.04, 0.04, 0.04};
+  s.occlusion = 1.0;
+  return s;
+}
+
+TEST(UniformLight, WhiteSheenOverWhiteLambertGivesTheLawOfItsScaling) {
+  for (const albedo::Visibility visibility : {albedo::Visibility::Charlie, albedo::Visibility::Ashikhmin, albedo::Visibility::Refined}) {
+    const albedo::Interpolant interpolant(visibility);
+    for (const double r : {0.05, 0.2, 0.5, 1.0}) {
+      for (const double mu : {1e-3, 0.02, 0.3, 0.5, 0.9, 1.0}) {
+        Surface<double> surface = white_lambert(mu);
+        surface.sheen_color = {1.0, 1.0, 1.0};
+        surface.sheen_roughness = r;
+        const double e = albedo::directional_albedo(visibility, mu, r);
+        const auto furnace = [&](brdf::AlbedoScaling scaling) {
+          Lighting lighting;
+          lighting.sheen = {visibility, scaling};
+          lighting.albedo = &interpolant;
+          return shade_uniform(surface, {true, false}, lighting, {1.0, 1.0, 1.0}).radiance.g;
+        };
+        const double tolerance = 1e-6 * std::max(1.0, e);
+        EXPECT_NEAR(furnace(brdf::AlbedoScaling::View), std::max(1.0, e), tolerance) << r << ' ' << mu;
+        EXPECT_NEAR(furnace(brdf::AlbedoScaling::None), 1.0 + e, tolerance);
+        const double full = furnace(brdf::AlbedoScaling::Full);
+        EXPECT_LE(full, std::max(1.0, e) + tolerance);
+        // The scale is the smaller of two: 1 - E(N.V) and, summed over L, what remains below it.
+        double expected = e;
+        const int n = 4000;
+        for (int i = 0; i < n; ++i) {
+          const double t = (i + 0.5) / n;
+          const double l = t * t;  // nodes gather at grazing, where E rises
+          expected += 2.0 * l * std::clamp(1.0 - std::max(e, interpolant(l, r)), 0.0, 1.0) * 2.0 * t / n;
+        }
+        EXPECT_NEAR(full, expected, 2e-5 * std::max(1.0, e)) << r << ' ' << mu;
+      }
+    }
+  }
+}
+
+TEST(UniformLight, CoatLiesAboveAndOcclusionDimsAll) {
+  Surface<double> surface = white_lambert(0.7);
+  surface.clearcoat = 0.8;
+  surface.coat_alpha = 0.0;
+  surface.occlusion = 0.5;
+  const double k = 0.8 * (0.04 + 0.96 * std::pow(0.3, 5.0));
+  const Color radiance = shade_uniform(surface, {false, true}, {}, {2.0, 4.0, 6.0}).radiance;
+  EXPECT_NEAR(radiance.r, 1.0 * ((1.0 - k) + k), 1e-9) << "a mirror coat over white Lambert loses nothing";
+  EXPECT_NEAR(radiance.b, 3.0, 1e-9);
+  surface.coat_alpha = 0.25;
+  EXPECT_LT(shade_uniform(surface, {false, true}, {}, {2.0, 4.0, 6.0}).radiance.r, 1.0);
+}
+
+}  // namespace
+}  // namespace sheen::golden
