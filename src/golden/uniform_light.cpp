@@ -124,11 +124,8 @@ BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<d
   return sum;
 }
 
-namespace {
-
 using Color = brdf::Rgb<double>;
 
-// brdf::base_brdf with its integrals in the place of 1/pi, w/pi, D Vis and D Vis w.
 Color base_light(const brdf::Base<double>& base, const BaseIntegrals& in) {
   const auto schlick = [&](const Color& f0) {
     const auto of = [&](double f) { return f * in.specular + (1 - f) * in.specular_w; };
@@ -139,6 +136,8 @@ Color base_light(const brdf::Base<double>& base, const BaseIntegrals& in) {
       base.color * (in.diffuse - base.specular * (f0 * in.diffuse + (1 - f0) * in.diffuse_w)) + schlick(base.dielectric_f0) * base.specular;
   return dielectric * (1 - base.metallic) + schlick(base.color) * base.metallic;
 }
+
+namespace {
 
 // Where Lambda changes branch, and where c E(N.L) passes 1 and the scale's clamp sets in.
 std::vector<double> scale_kinks(const SheenLayer<double>& sheen, double c) {

@@ -25,4 +25,7 @@ struct BaseIntegrals {
 BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<double(double)>& scale,
                              const std::vector<double>& kinks = {});
 
+/// What the base sends toward the camera under light of 1 from everywhere: brdf::base_brdf with its integrals in the place of the terms.
+brdf::Rgb<double> base_light(const brdf::Base<double>& base, const BaseIntegrals& in);
+
 }  // namespace sheen::golden
