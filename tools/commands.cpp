@@ -94,14 +94,27 @@ void add_scene(CLI::App& app, SceneOptions& options) {
          "The text that is followed: ratified")
       ->type_name("WORD")
       ->default_str("ratified");
-  app.add_option_function<std::int64_t>(
-         "--seed", [](const std::int64_t&) {}, "Seed of random sampling; nothing is sampled at random under punctual lights")
+  app.add_option("--seed", options.seed, "Seed of random sampling; nothing is sampled at random under punctual lights")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
       ->type_name("INT");
-  add_not_yet(app, "--environment", 1);
-  add_not_yet(app, "--environment-rotation", 1);
   add_not_yet_flag(app, "--background");
   add_json(app, options);
+}
+
+/// Light from everywhere, of golden alone until the renderer has it.
+void add_environment(CLI::App& app, GoldenOptions& options) {
+  app.add_option("--environment", options.environment,
+                 "uniform:R,G,B (radiance), or an equirect .hdr or .exr; lights beside the scene's lights")
+      ->type_name("LIGHT");
+  app.add_option("--environment-rotation", options.environment_rotation, "Degrees counter-clockwise about +Y")
+      ->check(CLI::Range(-1e6, 1e6))
+      ->capture_default_str();
+  app.add_option("--error", options.error, "Stop sampling an image at this relative standard error (0.01)")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->type_name("REL");
+  app.add_option("--samples", options.samples, "Directions a pixel; with --error: at most")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 30))
+      ->type_name("INT");
 }
 
 /// What chooses the shader; shared by render and explain.
@@ -110,6 +123,8 @@ void add_shader(CLI::App& app, RenderOptions& options) {
   add_word(app, "--formulation", options.formulation, formulation_words,
            "The specification's printed code, or a form that keeps its digits");
   add_word(app, "--albedo-source", options.albedo_source, albedo_source_words, "Where the shader takes the directional albedo from");
+  add_not_yet(app, "--environment", 1);
+  add_not_yet(app, "--environment-rotation", 1);
   add_not_yet(app, "--environment-samples", 1);
   add_not_yet(app, "--max-error", 1);
 }
@@ -145,8 +160,7 @@ Action declare_golden(CLI::App& app) {
   add_scene(app, *options);
   add_path(app, "-o,--output", options->output, ".exr (with the channels bound.R, bound.G, bound.B and excluded), .hdr, .pfm or .png")
       ->required();
-  add_not_yet(app, "--error", 1);
-  add_not_yet(app, "--samples", 1);
+  add_environment(app, *options);
   return [options] { return golden(*options); };
 }
 

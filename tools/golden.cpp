@@ -18,13 +18,16 @@
 
 namespace sheen::tools {
 
-image::Image golden_image(const scene::Scene& scene, const SceneOptions& options, int subpixel_bits) {
+image::Image golden_image(const scene::Scene& scene, const SceneOptions& options, int subpixel_bits,
+                          const std::optional<scene::Environment>& environment, const golden::SamplingGoal& sampling) {
   const std::int64_t pixels = std::int64_t{options.view.width} * options.view.height;
   Progress progress("golden", "pixels", pixels);
   golden::Settings settings;
   settings.view = options.view;
   settings.sheen = options.sheen;
   settings.subpixel_bits = subpixel_bits;
+  settings.environment = environment ? &*environment : nullptr;
+  settings.sampling = sampling;
   settings.progress = [&progress, pixels](double share) {
     progress.update(static_cast<std::int64_t>(share * static_cast<double>(pixels)));
   };
@@ -36,8 +39,16 @@ int golden(const GoldenOptions& options) {
   require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
   image::preload();
   const scene::Scene scene = load_scene(options);
-  require_light(scene);
-  const image::Image picture = golden_image(scene, options, golden::Settings().subpixel_bits);
+  const std::optional<scene::Environment> environment = load_environment(options);
+  require_light(scene, environment);
+  golden::SamplingGoal sampling;
+  sampling.seed = static_cast<std::uint64_t>(options.seed);
+  if (options.samples) {
+    sampling.samples = static_cast<std::uint32_t>(*options.samples);
+    sampling.error = 0.0;
+  }
+  sampling.error = options.error.value_or(sampling.error);
+  const image::Image picture = golden_image(scene, options, golden::Settings().subpixel_bits, environment, sampling);
   image::write(options.output, picture);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.json) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -24,7 +25,10 @@ struct SceneOptions : Common {
   std::filesystem::path scene;
   scene::View view;
   albedo::SheenModel sheen;
-  std::vector<scene::Light> lights;  ///< --light; when given, they replace the scene's own
+  std::vector<scene::Light> lights;   ///< --light; when given, they replace the scene's own
+  std::string environment;            ///< --environment: "uniform:R,G,B" or a file; empty: none
+  double environment_rotation = 0.0;  ///< degrees
+  std::int64_t seed = 0;
 };
 
 struct RenderOptions : SceneOptions {
@@ -42,6 +46,8 @@ struct RenderOptions : SceneOptions {
 
 struct GoldenOptions : SceneOptions {
   std::filesystem::path output;
+  std::optional<double> error;          ///< relative standard error at which sampling of an image stops
+  std::optional<std::int64_t> samples;  ///< directions a pixel at most; alone: without regard to the error
 };
 
 struct Tolerance {

@@ -9,9 +9,12 @@
 #include <string_view>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
+#include "image/io.h"
 #include "scene/gltf.h"
 #include "tools/errors.h"
+#include "tools/files.h"
 
 namespace sheen::tools {
 namespace {
@@ -89,8 +92,55 @@ scene::Scene load_scene(const SceneOptions& options) {
   return scene;
 }
 
-void require_light(const scene::Scene& scene) {
-  if (scene.lights.empty()) {
+namespace {
+
+scene::Environment read_equirect(const std::string& file) {
+  const image::Image picture = image::read(file);
+  scene::Environment environment;
+  environment.width = picture.width;
+  environment.height = picture.height;
+  environment.texels.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const glm::vec3 texel(picture.at(x, y, 0), picture.at(x, y, 1), picture.at(x, y, 2));
+      for (int c = 0; c < 3; ++c) {
+        if (!(texel[c] >= 0.0F) || !std::isfinite(texel[c])) {
+          throw InputError(file + ": pixel " + std::to_string(x) + ", " + std::to_string(y) + ": radiance must be finite and not negative");
+        }
+      }
+      environment.texels.push_back(texel);
+    }
+  }
+  return environment;
+}
+
+}  // namespace
+
+std::optional<scene::Environment> load_environment(const SceneOptions& options) {
+  if (options.environment.empty()) {
+    return std::nullopt;
+  }
+  constexpr std::string_view kind = "uniform:";
+  scene::Environment environment;
+  if (options.environment.starts_with(kind)) {
+    const auto rgb = parse_numbers<3>(std::string_view(options.environment).substr(kind.size()));
+    if (!rgb || (*rgb)[0] < 0.0 || (*rgb)[1] < 0.0 || (*rgb)[2] < 0.0) {
+      throw UsageError("--environment " + options.environment + ": must be uniform:R,G,B with three finite numbers that are not negative");
+    }
+    environment.uniform = {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+  } else {
+    const std::string extension = extension_of(options.environment);
+    if (extension != ".hdr" && extension != ".exr") {
+      throw UsageError("--environment " + options.environment + ": must be uniform:R,G,B or an equirect .hdr or .exr");
+    }
+    environment = read_equirect(options.environment);
+  }
+  environment.rotation = glm::radians(options.environment_rotation);
+  return environment;
+}
+
+void require_light(const scene::Scene& scene, const std::optional<scene::Environment>& environment) {
+  if (scene.lights.empty() && !environment) {
     throw InputError(scene.file + ": lights: nothing lights this scene; give --light directional:X,Y,Z:LUX");
   }
 }

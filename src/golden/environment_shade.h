@@ -1,18 +1,10 @@
 #pragma once
 
-#include <cstdint>
-
 #include "golden/environment_light.h"
+#include "golden/sampling_goal.h"
 #include "golden/shade.h"
 
 namespace sheen::golden {
-
-/// When to stop drawing directions for a point.
-struct SamplingGoal {
-  double error = 0.01;               ///< relative standard error, of the largest channel; 0: never by error
-  std::uint32_t samples = 1u << 20;  ///< directions at most
-  std::uint64_t seed = 0;
-};
 
 /// A mean with its standard error, each a radiance.
 struct Estimate {

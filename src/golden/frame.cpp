@@ -25,6 +25,9 @@ Frame::Frame(const scene::Scene& scene_in, const Settings& settings_in)
   const bool has_sheen = std::any_of(scene.instances.begin(), scene.instances.end(), [&](const scene::Instance& instance) {
     return reader.layers(scene.primitives[static_cast<std::size_t>(instance.primitive)].material).sheen;
   });
+  if (settings.environment != nullptr && settings.environment->is_image()) {
+    environment.emplace(*settings.environment);
+  }
   if (has_sheen) {
     albedo.emplace(settings.sheen.visibility);
   }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "golden/environment_light.h"
 #include "golden/geometry.h"
 #include "golden/golden.h"
 #include "golden/lights.h"
@@ -29,7 +30,8 @@ struct Frame {
   SurfaceReader reader;
   Tracer tracer;
   std::vector<PreparedLight> lights;
-  std::optional<albedo::Interpolant> albedo;  ///< only if a material in use has sheen
+  std::optional<EnvironmentLight> environment;  ///< only if it is an image
+  std::optional<albedo::Interpolant> albedo;    ///< only if a material in use has sheen
 };
 
 }  // namespace sheen::golden

@@ -34,6 +34,9 @@ void store(const Pixel& pixel, bool bounds, int x, int y, image::Image& out) {
   }
   put(7, pixel.excluded ? 1.0 : 0.0);
   put(8, pixel.mirrored ? 1.0 : 0.0);
+  for (int c = 0; c < 3 && out.channels.size() > 9; ++c) {
+    put(9 + c, pixel.standard_error[c]);
+  }
 }
 
 // Writes the terms down as the shading passes them.
@@ -60,6 +63,9 @@ image::Image render(const scene::Scene& scene, const Settings& settings) {
   std::vector<std::string> channels{"R", "G", "B", "A"};
   if (settings.bounds) {
     channels.insert(channels.end(), {"bound.R", "bound.G", "bound.B", "excluded", "mirrored"});
+    if (frame.environment) {
+      channels.insert(channels.end(), {"standard_error.R", "standard_error.G", "standard_error.B"});
+    }
   }
   image::Image out(settings.view.width, settings.view.height, std::move(channels));
   const int columns = (out.width + tile_size - 1) / tile_size;

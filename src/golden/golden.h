@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "albedo/sheen_model.h"
+#include "golden/sampling_goal.h"
 #include "image/image.h"
 #include "scene/environment.h"
 #include "scene/scene.h"
@@ -25,6 +26,7 @@ struct Settings {
   /// section 6.2, table 6.29: at least 4).
   int subpixel_bits = 8;
   const scene::Environment* environment = nullptr;  ///< light from everywhere, besides the scene's lights; must outlive its use
+  SamplingGoal sampling;                            ///< of an environment that is an image
   bool bounds = true;                               ///< whether to compute the bound channels
   /// Called now and then with the share done in [0, 1], from any thread.
   std::function<void(double)> progress;
@@ -33,6 +35,7 @@ struct Settings {
 /// Renders the truth: channels R G B A and, with bounds, bound.R bound.G bound.B (absolute, in the unit of R), `excluded` (1 where
 /// rasterisation may rightly show another surface or none: a sample moved by the sub-pixel step meets other coverage or another depth) and
 /// `mirrored`.
+/// Under an image also standard_error.R .G .B of the radiance, of which the bound holds five.
 /// At an excluded pixel the bound still holds every value seen at the corners of the step. `mirrored` is 1 where N.V <= 0 mirrored V in a
 /// lobe (README, "How a verdict is reached"), which other viewers may treat otherwise.
 /// Deterministic whatever the number of threads. Throws scene::Error, std::runtime_error if Embree cannot work.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
 
+#include "golden/environment_shade.h"
 #include "golden/shade_all.h"
 #include "golden/uniform_light.h"
 
@@ -137,7 +139,8 @@ Tile::Plan Tile::plan(int x, int y) {
   Seen seen;
   frame_.tracer.trace(ray, bounds, seen);
   const auto groups = static_cast<std::uint32_t>(lod_group_ends_.size());
-  Plan plan{static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, seen.tie.has_value() || seen.mask_uncertain};
+  const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(frame_.settings.view.width) + static_cast<std::uint64_t>(x);
+  Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, seen.tie.has_value() || seen.mask_uncertain};
   if (bounds) {
     add_sample_with_tie(seen, ray);
     plan_shifts(ray, seen, plan);
@@ -165,14 +168,14 @@ void Tile::shade_surfaces() {
       ++end;
     }
     shade_all(surfaces_.data(), order.data() + begin, end - begin, frame_.reader.layers(material), lighting, shaded_.data());
-    if (frame_.settings.environment != nullptr) {
-      add_environment(order.data() + begin, end - begin, lighting);
+    if (frame_.settings.environment != nullptr && !frame_.environment) {
+      add_uniform_light(order.data() + begin, end - begin, lighting);
     }
     begin = end;
   }
 }
 
-void Tile::add_environment(const std::uint32_t* order, std::size_t count, const Lighting& lighting) {
+void Tile::add_uniform_light(const std::uint32_t* order, std::size_t count, const Lighting& lighting) {
   const Layers layers = frame_.reader.layers(materials_[order[0]]);
   const glm::dvec3 uniform = frame_.settings.environment->uniform;
   for (std::size_t i = 0; i < count; ++i) {
@@ -183,14 +186,49 @@ void Tile::add_environment(const std::uint32_t* order, std::size_t count, const 
   }
 }
 
-// rgb = a c + (1 - a) dst over black, coverage likewise.
-Tile::Composed Tile::compose(const Sample& sample) const {
+void Tile::add_image_light(const std::vector<Plan>& plans) {
+  const brdf::Rgb<double> zero{0, 0, 0};
+  coarse_.assign(surfaces_.size(), zero);
+  refinement_.assign(surfaces_.size(), zero);
+  standard_error_.assign(surfaces_.size(), zero);
+  const Lighting lighting = frame_.lighting();
+  const auto estimate = [&](std::uint32_t surface, const SamplingGoal& goal) {
+    return shade_environment(surfaces_[surface], frame_.reader.layers(materials_[surface]), lighting, *frame_.environment, goal);
+  };
+  for (std::size_t p = 0; p < plans.size(); ++p) {
+    const std::uint32_t end = p + 1 < plans.size() ? plans[p + 1].centre : static_cast<std::uint32_t>(samples_.size());
+    for (std::uint32_t s = plans[p].centre; s < end; ++s) {
+      for (std::uint32_t layer = 0; layer < samples_[s].count; ++layer) {
+        const std::uint32_t surface = layers_[samples_[s].first + layer].surface;
+        SamplingGoal goal = frame_.settings.sampling;
+        // Each pixel and layer has a sequence of its own, wherever the tiles lie and whoever draws them.
+        goal.seed = (goal.seed * 0x100000001B3u + plans[p].pixel) * 64u + layer;
+        const SamplingGoal few{std::numeric_limits<double>::infinity(), 0, goal.seed};
+        coarse_[surface] = estimate(surface, few).mean;
+        if (s == plans[p].centre) {
+          const Estimate full = estimate(surface, goal);
+          refinement_[surface] = full.mean + coarse_[surface] * -1.0;
+          standard_error_[surface] = full.standard_error;
+        }
+      }
+    }
+  }
+}
+
+// rgb = a c + (1 - a) dst over black, coverage likewise. Refined: with the full estimate of the light of an image.
+Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
   Composed out;
   for (std::uint32_t i = sample.first; i < sample.first + sample.count; ++i) {
     const Shaded<double>& s = shaded_[layers_[i].surface];
     const double a = layers_[i].opacity;
-    out.radiance = dvec3(s.radiance) * a + out.radiance * (1.0 - a);
-    out.magnitude = dvec3(s.magnitude) * a + out.magnitude * (1.0 - a);
+    glm::dvec3 from_image(0.0);
+    if (!coarse_.empty()) {
+      const std::uint32_t surface = layers_[i].surface;
+      from_image = dvec3(coarse_[surface]) + (refined ? dvec3(refinement_[surface]) : glm::dvec3(0.0));
+      out.standard_error = dvec3(standard_error_[surface]) * a + out.standard_error * (1.0 - a);
+    }
+    out.radiance = (dvec3(s.radiance) + from_image) * a + out.radiance * (1.0 - a);
+    out.magnitude = (dvec3(s.magnitude) + glm::abs(from_image)) * a + out.magnitude * (1.0 - a);
     out.lookup = dvec3(s.lookup) * a + out.lookup * (1.0 - a);
     out.coverage = a + out.coverage * (1.0 - a);
     out.mirrored = out.mirrored || s.mirrored > 0.0;
@@ -224,9 +262,12 @@ Pixel Tile::finish(const Plan& plan) const {
     begin = lod_group_ends_[group];
   }
   Pixel pixel;
-  pixel.radiance = centre.radiance;
+  const Composed full = compose(samples_[plan.centre], true);
+  pixel.radiance = full.radiance;
   pixel.coverage = centre.coverage;
-  pixel.bound = centre.magnitude * relative_tolerance + absolute_tolerance + shift + lod + centre.lookup;
+  pixel.standard_error = full.standard_error;
+  pixel.bound =
+      full.magnitude * relative_tolerance + absolute_tolerance + shift + lod + centre.lookup + standard_errors * full.standard_error;
   pixel.excluded = plan.excluded;
   pixel.mirrored = centre.mirrored;
   return pixel;
@@ -246,6 +287,9 @@ std::vector<Pixel> Tile::render(int x0, int y0, int x1, int y1) {
     }
   }
   shade_surfaces();
+  if (frame_.environment) {
+    add_image_light(plans);
+  }
   std::vector<Pixel> pixels;
   pixels.reserve(plans.size());
   for (const Plan& p : plans) {

@@ -13,6 +13,7 @@ struct Pixel {
   glm::dvec3 radiance{0.0};
   double coverage = 0.0;
   glm::dvec3 bound{0.0};
+  glm::dvec3 standard_error{0.0};  ///< of the light of an image
   bool excluded = false;
   bool mirrored = false;
 };
@@ -20,6 +21,8 @@ struct Pixel {
 /// Tolerance of the shading itself, not yet derived from the rules of GLSL ES: a share of the value and a floor in its unit.
 inline constexpr double relative_tolerance = 1e-3;
 inline constexpr double absolute_tolerance = 2e-5;
+/// Of the light of an image, in the bound: a normal deviate passes five once in 1.7 million.
+inline constexpr double standard_errors = 5.0;
 
 /// A few pixels worked out together: first every ray is cast and every surface read, then all are shaded in batches, then composed.
 class Tile {
@@ -38,11 +41,12 @@ class Tile {
     std::uint32_t first, count;
   };
   struct Plan {  // samples: the centre, the shifted ones, then a group of other levels of detail for each texture
+    std::uint64_t pixel;
     std::uint32_t centre, shifted_end, first_group, last_group;
     bool excluded;
   };
   struct Composed {
-    glm::dvec3 radiance{0.0}, magnitude{0.0}, lookup{0.0};
+    glm::dvec3 radiance{0.0}, magnitude{0.0}, lookup{0.0}, standard_error{0.0};
     double coverage = 0.0;
     bool mirrored = false;
   };
@@ -56,14 +60,18 @@ class Tile {
   Seen extended(const Seen& centre, const Ray& ray) const;
   void add_levels(const Seen& seen, const Ray& ray);
   void shade_surfaces();
-  void add_environment(const std::uint32_t* order, std::size_t count, const Lighting& lighting);
-  Composed compose(const Sample& sample) const;
+  void add_uniform_light(const std::uint32_t* order, std::size_t count, const Lighting& lighting);
+  void add_image_light(const std::vector<Plan>& plans);
+  Composed compose(const Sample& sample, bool refined = false) const;
   Pixel finish(const Plan& plan) const;
 
   const Frame& frame_;
   std::vector<Surface<double>> surfaces_;
   std::vector<int> materials_;  // of surfaces_
   std::vector<Shaded<double>> shaded_;
+  // Under an image, of surfaces_: from few directions, the same for all surfaces of a pixel, so that their differences tell what a moved
+  // sample changes; and, of those at pixel centres, what is left to the full estimate.
+  std::vector<brdf::Rgb<double>> coarse_, refinement_, standard_error_;
   std::vector<LayerRef> layers_;
   std::vector<Sample> samples_;
   std::vector<std::uint32_t> lod_group_ends_;  // into samples_
