@@ -34,6 +34,7 @@ void store(const Pixel& pixel, bool bounds, int x, int y, image::Image& out) {
   }
   put(7, pixel.excluded ? 1.0 : 0.0);
   put(8, pixel.mirrored ? 1.0 : 0.0);
+  put(9, pixel.coverage_bound);
 }
 
 // Writes the terms down as the shading passes them.
@@ -59,7 +60,7 @@ image::Image render(const scene::Scene& scene, const Settings& settings) {
   const Frame frame(scene, settings);
   std::vector<std::string> channels{"R", "G", "B", "A"};
   if (settings.bounds) {
-    channels.insert(channels.end(), {"bound.R", "bound.G", "bound.B", "excluded", "mirrored"});
+    channels.insert(channels.end(), {"bound.R", "bound.G", "bound.B", "excluded", "mirrored", "bound.A"});
   }
   image::Image out(settings.view.width, settings.view.height, std::move(channels));
   const int columns = (out.width + tile_size - 1) / tile_size;
