@@ -28,7 +28,7 @@ std::string cache_name(const std::string& hash, const golden::Settings& settings
 bool usable(const image::Image& image, const golden::Settings& settings) {
   const auto has = [&image](const char* name) { return image.channel(name) >= 0; };
   return image.width == settings.view.width && image.height == settings.view.height && has("R") && has("G") && has("B") && has("A") &&
-         has("bound.R") && has("bound.G") && has("bound.B") && has("excluded");
+         has("bound.R") && has("bound.G") && has("bound.B") && has("bound.A") && has("excluded");
 }
 
 }  // namespace

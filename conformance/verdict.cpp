@@ -32,19 +32,17 @@ double half_code(double linear) {
 struct Channels {
   std::array<int, 4> candidate{};  // R G B A; A may be -1
   std::array<int, 4> golden{};
-  std::array<int, 3> bound{};
+  std::array<int, 4> bound{};
   int excluded = -1;
   int mirrored = -1;
 
   Channels(const image::Image& candidate_image, const image::Image& golden_image) {
     const std::array<const char*, 4> names = {"R", "G", "B", "A"};
-    const std::array<const char*, 3> bounds = {"bound.R", "bound.G", "bound.B"};
+    const std::array<const char*, 4> bounds = {"bound.R", "bound.G", "bound.B", "bound.A"};
     for (std::size_t c = 0; c < 4; ++c) {
       candidate.at(c) = candidate_image.channel(names.at(c));
       golden.at(c) = golden_image.channel(names.at(c));
-      if (c < 3) {
-        bound.at(c) = golden_image.channel(bounds.at(c));
-      }
+      bound.at(c) = golden_image.channel(bounds.at(c));
     }
     excluded = golden_image.channel("excluded");
     mirrored = golden_image.channel("mirrored");
@@ -96,7 +94,7 @@ class Judge {
     const double value = candidate_.at(x, y, channels_.candidate.at(c));
     Sample s;
     s.reference = golden_.at(x, y, channels_.golden.at(c));
-    s.bound = c < 3 ? static_cast<double>(golden_.at(x, y, channels_.bound.at(c))) : alpha_bound(s.reference);
+    s.bound = golden_.at(x, y, channels_.bound.at(c));
     if (rules_.golden_is_pxr24) {
       s.bound += std::abs(s.reference) * 0x1p-16;
     }
@@ -238,10 +236,6 @@ std::string to_string(Status status) {
       break;
   }
   return "invalid";
-}
-
-double alpha_bound(double alpha) {
-  return alpha > 0 && alpha < 1 ? 1e-3 * alpha + 2e-5 : 0.0;
 }
 
 Verdict judge(const image::Image& candidate, const image::Image& golden, const VerdictRules& rules) {

@@ -42,10 +42,6 @@ struct VerdictRules {
   double most_excluded = 0.02;
 };
 
-/// The bounds the golden gives (bound.R/G/B, absolute) hold for R, G, B; this one for A, which the golden gives no bound for: the shading
-/// bound of The shading tolerance, 1e-3 relative + 2e-5 absolute, where A lies between 0 and 1, and nothing where it is 0 or 1.
-double alpha_bound(double alpha);
-
 /// Judges a candidate against its golden. A pure function.
 ///
 /// Compared are the pixels that either image covers (alpha > 0; a candidate without A covers what the golden covers) and the golden does

@@ -15,7 +15,7 @@ constexpr float infinite_value = std::numeric_limits<float>::infinity();
 
 /// A golden that covers the left half with a smooth colour and a bound of one part in a thousand; 100 covered pixels.
 image::Image make_golden() {
-  image::Image golden(width, height, {"R", "G", "B", "A", "bound.R", "bound.G", "bound.B", "excluded"});
+  image::Image golden(width, height, {"R", "G", "B", "A", "bound.R", "bound.G", "bound.B", "excluded", "bound.A"});
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const bool covered = x < width / 2;
@@ -245,8 +245,8 @@ TEST_F(VerdictTest, MirroredPixelsAreLeftOutOnlyIfTheRulesSaySo) {
   golden_.channels.push_back("mirrored");
   std::vector<float> data;
   for (std::size_t i = 0; i < static_cast<std::size_t>(width) * height; ++i) {
-    data.insert(data.end(), golden_.data.begin() + static_cast<std::ptrdiff_t>(8 * i),
-                golden_.data.begin() + static_cast<std::ptrdiff_t>(8 * i + 8));
+    data.insert(data.end(), golden_.data.begin() + static_cast<std::ptrdiff_t>(9 * i),
+                golden_.data.begin() + static_cast<std::ptrdiff_t>(9 * i + 9));
     data.push_back(i == 5 ? 1.0F : 0.0F);
   }
   golden_.data = data;

@@ -7,6 +7,7 @@
 
 #include "conformance/case.h"
 #include "conformance/run.h"
+#include "scene/scene.h"
 
 namespace sheen::conformance {
 namespace {
@@ -32,7 +33,7 @@ std::string with_last_words(const std::string& message, const std::string& words
   while (!tail.empty() && (tail.back() == '\n' || tail.back() == '\r')) {
     tail.pop_back();
   }
-  return tail.empty() ? message : message + "; its last words: " + tail;
+  return tail.empty() ? message : message + "; its last words: " + scene::legible(tail);
 }
 
 std::string text_member(const json& object, const char* key) {
@@ -199,7 +200,7 @@ Answer Viewer::interpret(const std::string& line, const std::string& id, const R
     return lost(AnswerStatus::Invalid, "the answer is to request '" + shorten(answered) + "', not to '" + id + "'", 0, seconds);
   }
   Answer answer;
-  answer.message = text_member(root, "message");
+  answer.message = scene::legible(text_member(root, "message"));
   answer.seconds = root.contains("seconds") && root["seconds"].is_number() ? root["seconds"].get<double>() : seconds;
   const std::string status = text_member(root, "status");
   if (status == "rendered") {

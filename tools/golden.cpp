@@ -55,7 +55,9 @@ int golden(const GoldenOptions& options) {
     std::cout << nlohmann::ordered_json{{"output", options.output.string()},
                                         {"width", picture.width},
                                         {"height", picture.height},
-                                        {"channels", picture.channels},
+                                        {"channels", extension_of(options.output) == ".exr"   ? picture.channels
+                                                     : extension_of(options.output) == ".png" ? std::vector<std::string>{"R", "G", "B", "A"}
+                                                                                              : std::vector<std::string>{"R", "G", "B"}},
                                         {"visibility", word_of(visibility_words, options.sheen.visibility)},
                                         {"albedo_scaling", word_of(albedo_scaling_words, options.sheen.scaling)},
                                         {"formula_version", golden::formula_version},

@@ -146,6 +146,83 @@ TEST(Bound, HoldsATriangleCarriedOnBeyondItsEdge) {
   EXPECT_LE(std::abs(radiance.r - golden.at(8, 5, 0)), golden.at(8, 5, 4));
 }
 
+TEST(Bound, HoldsTheTriangleBesideTheEdgeAtTheSampleItself) {
+  // The right face's emission runs steeply along the edge: a driver that gives the centre to it shows its value there, not at the corners.
+  scene::Primitive left = test::square(2.0);
+  scene::Primitive right = test::square(2.0);
+  const float edge = 1.0f / 16.0f + 1e-4f;  // a pixel's centre lies at 1/16
+  for (glm::vec3& p : left.positions) {
+    p.x = p.x < 0.0f ? -4.0f : edge;
+  }
+  for (glm::vec3& p : right.positions) {
+    p.x = p.x < 0.0f ? edge : 4.0f;
+  }
+  scene::Material plain = test::lambertian({0.0, 0.0, 0.0, 1.0});
+  plain.emissive_factor = glm::dvec3(0.25);
+  scene::Scene s = test::scene_with(left, plain, test::orthographic_at(5.0, 1.0), {});
+  // A row of texels is as high as the step: bright at every centre, dark at the corners.
+  scene::Material ridged = plain;
+  ridged.emissive_factor = glm::dvec3(1.0);
+  ridged.emissive_texture =
+      test::add_texture(s, test::picture(2, 512, [](int, int y) { return glm::ivec4(glm::ivec3((y + 1) % 2 * 255), 255); }));
+  ridged.emissive_texture.transform[2][1] = 0.5 / 512.0;
+  s.textures[0].sampler.mip = scene::MipFilter::None;
+  test::add(s, right, ridged);
+  Settings settings = test::settings_for(16, 16, true);
+  settings.subpixel_bits = 4;
+  const image::Image golden = render(s, settings);
+  const Frame frame(s, settings);
+  int steeper = 0;
+  for (int y = 2; y < 14; ++y) {
+    Seen seen;
+    const Ray corner = frame.rays.through(8.5 + 1.0 / 16, y + 0.5);
+    frame.tracer.trace(corner, false, seen);
+    const Ray centre = frame.rays.through(8.5, y + 0.5);
+    const std::optional<Hit> there = frame.geometry.meet(seen.nearest->triangle, centre);
+    const auto value = shade(frame.reader.surface(*there, centre), {}, frame.lighting(), NoListener{}).radiance.r;
+    EXPECT_LE(std::abs(value - golden.at(8, y, 0)), golden.at(8, y, 4)) << y;
+    double at_corners = 0.0;
+    for (const double dy : {-1.0 / 16, 1.0 / 16}) {
+      const Ray ray = frame.rays.through(8.5 + 1.0 / 16, y + 0.5 + dy);
+      const auto moved =
+          shade(frame.reader.surface(*frame.geometry.meet(seen.nearest->triangle, ray), ray), {}, frame.lighting(), NoListener{});
+      at_corners = std::max(at_corners, std::abs(moved.radiance.r - golden.at(8, y, 0)));
+    }
+    steeper += std::abs(value - golden.at(8, y, 0)) > 1.1 * at_corners + 2e-3 ? 1 : 0;
+  }
+  EXPECT_GT(steeper, 0) << "at some pixels only the sample itself shows it";
+}
+
+TEST(Bound, HoldsTheCoverageOfABlendedTexture) {
+  scene::Material m = test::lambertian({1.0, 1.0, 1.0, 1.0});
+  m.alpha_mode = scene::AlphaMode::Blend;
+  scene::Scene s = test::scene_with(test::square(0.9), m, test::orthographic_at(5.0, 1.0), {test::directional({0.0, 0.0, 1.0})});
+  s.materials[0].base_color_texture =
+      test::add_texture(s, test::picture(64, 64, [](int x, int y) { return glm::ivec4(255, 255, 255, (x * 37 + y * 91) % 256); }));
+  s.textures[0].sampler.mip = scene::MipFilter::None;
+  Settings settings = test::settings_for(size, size, true);
+  settings.subpixel_bits = 4;
+  const image::Image golden = render(s, settings);
+  const int bound = golden.channel("bound.A");
+  ASSERT_GE(bound, 0);
+  const double pixel = 2.0 / size;
+  for (const glm::dvec2 shift : {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1)}) {
+    scene::Scene moved = s;
+    moved.cameras[0].world_from_camera = glm::translate(s.cameras[0].world_from_camera, glm::dvec3(shift.x, -shift.y, 0.0) * pixel / 16.0);
+    const image::Image other = render(moved, test::settings_for(size, size));
+    double largest = 0.0;
+    for (int y = 4; y < size - 4; ++y) {
+      for (int x = 4; x < size - 4; ++x) {
+        const double change = std::abs(other.at(x, y, 3) - golden.at(x, y, 3));
+        EXPECT_LE(change, golden.at(x, y, bound)) << x << ' ' << y;
+        largest = std::max(largest, change);
+      }
+    }
+    EXPECT_GT(largest, 0.01);
+  }
+  EXPECT_EQ(golden.at(0, 0, bound), 0.0f) << "no surface covers nothing, exactly";
+}
+
 TEST(Bound, SurfacesAtOneDepthAreExcludedAndTheFirstInTheFileIsShown) {
   scene::Scene s = test::scene_with(test::square(2.0), test::lambertian({0.2, 0.2, 0.2, 1.0}), test::camera_at(5.0),
                                     {test::directional({0.0, 0.0, 1.0})});

@@ -34,8 +34,9 @@ void store(const Pixel& pixel, bool bounds, int x, int y, image::Image& out) {
   }
   put(7, pixel.excluded ? 1.0 : 0.0);
   put(8, pixel.mirrored ? 1.0 : 0.0);
-  for (int c = 0; c < 3 && out.channels.size() > 9; ++c) {
-    put(9 + c, pixel.standard_error[c]);
+  put(9, pixel.coverage_bound);
+  for (int c = 0; c < 3 && out.channels.size() > 10; ++c) {
+    put(10 + c, pixel.standard_error[c]);
   }
 }
 
@@ -62,7 +63,7 @@ image::Image render(const scene::Scene& scene, const Settings& settings) {
   const Frame frame(scene, settings);
   std::vector<std::string> channels{"R", "G", "B", "A"};
   if (settings.bounds) {
-    channels.insert(channels.end(), {"bound.R", "bound.G", "bound.B", "excluded", "mirrored"});
+    channels.insert(channels.end(), {"bound.R", "bound.G", "bound.B", "excluded", "mirrored", "bound.A"});
     if (frame.environment) {
       channels.insert(channels.end(), {"standard_error.R", "standard_error.G", "standard_error.B"});
     }

@@ -17,7 +17,7 @@
 namespace sheen::golden {
 
 /// Changes with every change of a formula that can change a golden; part of the key of every cached or committed golden.
-inline constexpr const char* formula_version = "1";
+inline constexpr const char* formula_version = "2";
 
 struct Settings {
   scene::View view;
@@ -33,8 +33,8 @@ struct Settings {
 };
 
 /// Renders the truth: channels R G B A and, with bounds, bound.R bound.G bound.B (absolute, in the unit of R), `excluded` (1 where
-/// rasterisation may rightly show another surface or none: a sample moved by the sub-pixel step meets other coverage or another depth) and
-/// `mirrored`.
+/// rasterisation may rightly show another surface or none: a sample moved by the sub-pixel step meets other coverage or another depth),
+/// `mirrored`, and bound.A of the coverage.
 /// Under an image also standard_error.R .G .B of the radiance, of which the bound holds five.
 /// At an excluded pixel the bound still holds every value seen at the corners of the step. `mirrored` is 1 where N.V <= 0 mirrored V in a
 /// lobe (README, "How a verdict is reached"), which other viewers may treat otherwise.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -114,42 +115,91 @@ void Tile::add_levels(const Seen& seen, const Ray& ray) {
   std::for_each(seen.blended.begin(), seen.blended.end(), add);
 }
 
-void Tile::plan_shifts(const Ray& centre_ray, const Seen& centre, Plan& plan) {
+void Tile::add_shifted(Plan& plan) {
   const double step = std::ldexp(1.0, -frame_.settings.subpixel_bits);
-  Seen seen;
-  for (int corner = 0; corner < 4; ++corner) {
-    const double dx = (corner & 1) != 0 ? step : -step;
-    const double dy = (corner & 2) != 0 ? step : -step;
-    const Ray ray = frame_.rays.through(centre_ray.x + dx, centre_ray.y + dy);
-    frame_.tracer.trace(ray, false, seen);
-    if (centre.empty() && seen.empty()) {
+  Look& centre = looks_[0];
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const double dx = (corner & 1u) != 0 ? step : -step;
+    const double dy = (corner & 2u) != 0 ? step : -step;
+    Look& look = looks_[corner + 1];
+    look.ray = frame_.rays.through(centre.ray.x + dx, centre.ray.y + dy);
+    frame_.tracer.trace(look.ray, true, look.seen);
+    if (centre.seen.empty() && look.seen.empty()) {
       continue;
     }
-    plan.excluded = plan.excluded || seen.tie || interrupted(centre_ray, centre, ray, seen);
-    add_sample_with_tie(seen, ray);
-    if (!centre.empty() && !seen.same_triangles(centre)) {
-      add_sample(extended(centre, ray), ray);
+    plan.excluded = plan.excluded || look.seen.tie || interrupted(centre.ray, centre.seen, look.ray, look.seen);
+    add_sample_with_tie(look.seen, look.ray);
+  }
+}
+
+// A driver whose grid moves an edge past a sample shades that sample with the triangles of the other side, carried on beyond the edge: all
+// that any of the looks meets, at every one of them.
+void Tile::add_carried_on() {
+  for (std::size_t k = 0; k < looks_.size(); ++k) {
+    const auto same_as = [&](const Look& look) { return look.seen.same_triangles(looks_[k].seen); };
+    const auto begin = looks_.begin();
+    const auto here = begin + static_cast<std::ptrdiff_t>(k);
+    if (looks_[k].seen.empty() || std::any_of(begin, here, same_as)) {
+      continue;
+    }
+    for (const Look& look : looks_) {
+      if (!same_as(look)) {
+        add_sample(extended(looks_[k].seen, look.ray), look.ray);
+      }
     }
   }
 }
 
+// Whether a MASK surface in front may be kept or discarded: within the step, its triangle carried on, or by the freedom in the level of
+// detail.
+bool Tile::mask_uncertain() const {
+  constexpr std::size_t base_color = 0;
+  for (const Look& met : looks_) {
+    for (const Hit& hit : met.seen.masked) {
+      const double cutoff = frame_.geometry.placed(hit.triangle).material->alpha_cutoff;
+      Seen alone;
+      alone.nearest = hit;
+      const bool kept = frame_.reader.opacity(hit, met.ray) >= cutoff;
+      for (const Look& look : looks_) {
+        const Hit there = *extended(alone, look.ray).nearest;
+        if ((frame_.reader.opacity(there, look.ray) >= cutoff) != kept) {
+          return true;
+        }
+        for (const double level : frame_.reader.levels_to_try(there, look.ray, base_color)) {
+          if ((frame_.reader.opacity(there, look.ray, {level, base_color}) >= cutoff) != kept) {
+            return true;
+          }
+        }
+      }
+    }
+  }
+  return false;
+}
+
 Tile::Plan Tile::plan(int x, int y) {
-  const Ray ray = frame_.rays.through(x + 0.5, y + 0.5);
+  Look& centre = looks_[0];
+  centre.ray = frame_.rays.through(x + 0.5, y + 0.5);
   const bool bounds = frame_.settings.bounds;
-  Seen seen;
-  frame_.tracer.trace(ray, bounds, seen);
+  frame_.tracer.trace(centre.ray, bounds, centre.seen);
   const auto groups = static_cast<std::uint32_t>(lod_group_ends_.size());
   const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(frame_.settings.view.width) + static_cast<std::uint64_t>(x);
-  Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, seen.tie.has_value() || seen.mask_uncertain};
-  if (bounds) {
-    add_sample_with_tie(seen, ray);
-    plan_shifts(ray, seen, plan);
-  } else {
-    add_sample(seen, ray);
+  Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, centre.seen.tie.has_value()};
+  if (!bounds) {
+    add_sample(centre.seen, centre.ray);
+    plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
+    return plan;
   }
+  add_sample_with_tie(centre.seen, centre.ray);
+  add_shifted(plan);
+  add_carried_on();
   plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
-  if (bounds) {
-    add_levels(seen, ray);
+  plan.excluded = plan.excluded || mask_uncertain();
+  for (std::size_t k = 0; k < looks_.size(); ++k) {
+    const auto begin = looks_.begin();
+    const auto here = begin + static_cast<std::ptrdiff_t>(k);
+    if (std::none_of(begin, here, [&](const Look& look) { return look.seen.same_triangles(looks_[k].seen); })) {
+      add_levels(extended(looks_[k].seen, centre.ray), centre.ray);
+    }
   }
   plan.last_group = static_cast<std::uint32_t>(lod_group_ends_.size());
   return plan;
@@ -238,24 +288,26 @@ Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
 
 Pixel Tile::finish(const Plan& plan) const {
   const Composed centre = compose(samples_[plan.centre]);
+  const auto vector_of = [](const Composed& c) { return glm::dvec4(c.radiance, c.coverage); };
+  const glm::dvec4 here = vector_of(centre);
   const auto largest_change = [&](std::uint32_t begin, std::uint32_t end) {
-    glm::dvec3 largest(0.0);
+    glm::dvec4 largest(0.0);
     for (std::uint32_t i = begin; i < end; ++i) {
-      largest = glm::max(largest, glm::abs(compose(samples_[i]).radiance - centre.radiance));
+      largest = glm::max(largest, glm::abs(vector_of(compose(samples_[i])) - here));
     }
     return largest;
   };
-  const glm::dvec3 shift = largest_change(plan.centre + 1, plan.shifted_end);
+  const glm::dvec4 shift = largest_change(plan.centre + 1, plan.shifted_end);
   // What may come between two levels that were tried: beyond the nearer one by half of what they differ.
   const auto between = [&](std::uint32_t begin, std::uint32_t end) {
-    glm::dvec3 largest(0.0);
+    glm::dvec4 largest(0.0);
     for (std::uint32_t i = begin + 1; i < end; ++i) {
-      largest = glm::max(largest, 0.5 * glm::abs(compose(samples_[i]).radiance - compose(samples_[i - 1]).radiance));
+      largest = glm::max(largest, 0.5 * glm::abs(vector_of(compose(samples_[i])) - vector_of(compose(samples_[i - 1]))));
     }
     return largest;
   };
   // Each texture's level is the driver's to choose, whatever the others': their largest changes add.
-  glm::dvec3 lod(0.0);
+  glm::dvec4 lod(0.0);
   std::uint32_t begin = plan.shifted_end;
   for (std::uint32_t group = plan.first_group; group < plan.last_group; ++group) {
     lod += largest_change(begin, lod_group_ends_[group]) + between(begin, lod_group_ends_[group]);
@@ -266,8 +318,12 @@ Pixel Tile::finish(const Plan& plan) const {
   pixel.radiance = full.radiance;
   pixel.coverage = centre.coverage;
   pixel.standard_error = full.standard_error;
+  const glm::dvec4 moved = shift + lod;
   pixel.bound =
-      full.magnitude * relative_tolerance + absolute_tolerance + shift + lod + centre.lookup + standard_errors * full.standard_error;
+      full.magnitude * relative_tolerance + absolute_tolerance + glm::dvec3(moved) + centre.lookup + standard_errors * full.standard_error;
+  // No surface and an opaque one cover exactly 0 and 1.
+  const bool whole = centre.coverage == 0.0 || centre.coverage == 1.0;
+  pixel.coverage_bound = (whole ? 0.0 : centre.coverage * relative_tolerance + absolute_tolerance) + moved.w;
   pixel.excluded = plan.excluded;
   pixel.mirrored = centre.mirrored;
   return pixel;

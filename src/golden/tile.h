@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct Pixel {
   glm::dvec3 radiance{0.0};
   double coverage = 0.0;
   glm::dvec3 bound{0.0};
+  double coverage_bound = 0.0;
   glm::dvec3 standard_error{0.0};  ///< of the light of an image
   bool excluded = false;
   bool mirrored = false;
@@ -52,7 +54,9 @@ class Tile {
   };
 
   Plan plan(int x, int y);
-  void plan_shifts(const Ray& centre_ray, const Seen& centre, Plan& plan);
+  void add_shifted(Plan& plan);
+  void add_carried_on();
+  bool mask_uncertain() const;
   void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {}, const Hit* varied = nullptr);
   void add_sample_with_tie(Seen& seen, const Ray& ray);
   void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
@@ -65,7 +69,14 @@ class Tile {
   Composed compose(const Sample& sample, bool refined = false) const;
   Pixel finish(const Plan& plan) const;
 
+  // What the rays through a pixel's centre, first, and the corners of the step around it see.
+  struct Look {
+    Ray ray;
+    Seen seen;
+  };
+
   const Frame& frame_;
+  std::array<Look, 5> looks_;
   std::vector<Surface<double>> surfaces_;
   std::vector<int> materials_;  // of surfaces_
   std::vector<Shaded<double>> shaded_;

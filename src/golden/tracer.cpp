@@ -56,7 +56,7 @@ void Seen::clear() {
   nearest.reset();
   tie.reset();
   blended.clear();
-  mask_uncertain = false;
+  masked.clear();
 }
 
 bool Seen::same_triangles(const Seen& other) const {
@@ -100,10 +100,9 @@ struct Tracer::Impl::Query {
   const Impl* impl;
   const Ray* ray;
   Seen* seen;
-  bool judge_mask;
-  double limit;      // beyond it nothing matters
-  double best;       // depth of the nearest opaque hit so far
-  double uncertain;  // depth of the nearest MASK surface whose test may go either way
+  bool with_masked;
+  double limit;  // beyond it nothing matters
+  double best;   // depth of the nearest opaque hit so far
   std::vector<Hit> candidates;
 };
 
@@ -132,19 +131,10 @@ std::optional<Hit> Tracer::Impl::visible(std::uint32_t triangle, const Ray& ray)
 }
 
 bool Tracer::Impl::kept_by_mask(const Hit& hit, Query& query) const {
-  const Placed& placed = geometry.placed(hit.triangle);
-  const double cutoff = placed.material->alpha_cutoff;
-  const bool kept = reader.opacity(hit, *query.ray) >= cutoff;
-  constexpr std::size_t base_color = 0;
-  const std::optional<LodInterval> range = query.judge_mask ? reader.lod_interval(hit, *query.ray, base_color) : std::nullopt;
-  if (range) {
-    for (const double level : levels_within(*range)) {
-      if ((reader.opacity(hit, *query.ray, {level, base_color}) >= cutoff) != kept) {
-        query.uncertain = std::min(query.uncertain, hit.t);
-      }
-    }
+  if (query.with_masked) {
+    query.seen->masked.push_back(hit);
   }
-  return kept;
+  return reader.opacity(hit, *query.ray) >= geometry.placed(hit.triangle).material->alpha_cutoff;
 }
 
 void Tracer::Impl::filter(const RTCFilterFunctionNArguments* args) {
@@ -326,7 +316,7 @@ Tracer::Tracer(const scene::Scene& scene, const Geometry& geometry, const Surfac
 
 Tracer::~Tracer() = default;
 
-void Tracer::trace(const Ray& ray, bool judge_mask, Seen& seen) const {
+void Tracer::trace(const Ray& ray, bool with_masked, Seen& seen) const {
   seen.clear();
   Impl::Query query{};
   rtcInitIntersectContext(&query.context);
@@ -334,10 +324,9 @@ void Tracer::trace(const Ray& ray, bool judge_mask, Seen& seen) const {
   query.impl = impl_.get();
   query.ray = &ray;
   query.seen = &seen;
-  query.judge_mask = judge_mask;
+  query.with_masked = with_masked;
   query.limit = impl_->rays.camera().zfar;
   query.best = std::numeric_limits<double>::infinity();
-  query.uncertain = std::numeric_limits<double>::infinity();
   RTCRayHit cast{};
   const glm::dvec3 origin = ray.origin - impl_->centre;
   cast.ray.org_x = static_cast<float>(origin.x);
@@ -355,7 +344,7 @@ void Tracer::trace(const Ray& ray, bool judge_mask, Seen& seen) const {
   impl_->settle_nearest(query.candidates, ray, seen);
   impl_->settle_blended(ray, seen);
   // Only what is in front was certainly visited, and only that matters.
-  seen.mask_uncertain = query.uncertain <= (seen.nearest ? seen.nearest->t : std::numeric_limits<double>::max());
+  std::erase_if(seen.masked, [&](const Hit& hit) { return seen.nearest && hit.t > seen.nearest->t; });
 }
 
 }  // namespace sheen::golden

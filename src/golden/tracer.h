@@ -15,8 +15,7 @@ struct Seen {
   std::optional<Hit> nearest;  ///< nearest opaque (or MASK, kept) surface within the clip range
   std::optional<Hit> tie;      ///< another surface at a depth that a depth buffer may not tell from the nearest one's
   std::vector<Hit> blended;    ///< BLEND surfaces in front of it, in drawing order
-  /// A MASK surface in front was kept or discarded by a margin that the freedom in the level of detail can turn round.
-  bool mask_uncertain = false;
+  std::vector<Hit> masked;     ///< MASK surfaces in front, kept or not; only if asked for
 
   void clear();
   bool empty() const { return !nearest && blended.empty(); }
@@ -35,8 +34,8 @@ class Tracer {
 
   /// Single-sided surfaces seen from behind are invisible, MASK surfaces where alpha < cutoff too. Thread-safe; `seen` is cleared first and
   /// given back filled, so that its memory serves the next ray.
-  /// @param judge_mask  whether to find mask_uncertain
-  void trace(const Ray& ray, bool judge_mask, Seen& seen) const;
+  /// @param with_masked  whether to fill `masked`
+  void trace(const Ray& ray, bool with_masked, Seen& seen) const;
 
  private:
   struct Impl;

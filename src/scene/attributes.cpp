@@ -4,6 +4,9 @@
 #include <numeric>
 
 #include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+
+#include "scene/mikktspace.h"
 
 namespace sheen::scene {
 namespace {
@@ -45,39 +48,6 @@ void gather(std::vector<T>& attribute, const std::vector<std::uint32_t>& indices
   attribute = std::move(result);
 }
 
-struct UvFrame {
-  glm::dvec3 along_u{0.0};
-  double handedness = 1.0;
-};
-
-// With e1, e2 the edges and (du, dv) their texture coordinates: dp/du = (e1 dv2 - e2 dv1) / det, det = du1 dv2 - du2 dv1, and
-// dp/du x dp/dv = (e1 x e2) / det. cross(n, t) * w is to point along -dp/dv, hence w = -sign(det) on the front of the triangle.
-UvFrame uv_frame(const Primitive& primitive, const Triangle& t, const TextureInfo& uv) {
-  const std::vector<glm::vec2>& set = primitive.texcoords[static_cast<std::size_t>(uv.texcoord)];
-  glm::dvec2 st[3];
-  for (int i = 0; i < 3; ++i) {
-    st[i] = glm::dvec2(uv.transform * glm::dvec3(glm::dvec2(set[t.v[i]]), 1.0));
-  }
-  const glm::dvec3 origin(primitive.positions[t.v[0]]);
-  const glm::dvec3 e1 = glm::dvec3(primitive.positions[t.v[1]]) - origin;
-  const glm::dvec3 e2 = glm::dvec3(primitive.positions[t.v[2]]) - origin;
-  const glm::dvec2 d1 = st[1] - st[0];
-  const glm::dvec2 d2 = st[2] - st[0];
-  const double det = d1.x * d2.y - d2.x * d1.y;
-  UvFrame frame;
-  if (det == 0.0) {
-    return frame;
-  }
-  const double sign = det > 0.0 ? 1.0 : -1.0;
-  frame.along_u = sign * (e1 * d2.y - e2 * d1.y);
-  // Shading normals that face away from the triangle's front turn the frame over.
-  const glm::dvec3 shading =
-      glm::dvec3(primitive.normals[t.v[0]]) + glm::dvec3(primitive.normals[t.v[1]]) + glm::dvec3(primitive.normals[t.v[2]]);
-  const bool facing_away = glm::dot(shading, glm::cross(e1, e2)) < 0.0;
-  frame.handedness = facing_away ? sign : -sign;
-  return frame;
-}
-
 }  // namespace
 
 void unshare_vertices(Primitive& primitive) {
@@ -108,16 +78,24 @@ void make_flat_normals(Primitive& primitive) {
 void make_tangents(Primitive& primitive, const TextureInfo& uv) {
   primitive.tangents.clear();
   unshare_vertices(primitive);
-  primitive.tangents.resize(primitive.positions.size());
-  for (std::size_t i = 0; i < primitive.indices.size() / 3; ++i) {
-    const Triangle t = triangle(primitive, i);
-    const UvFrame frame = uv_frame(primitive, t, uv);
-    const glm::dvec3 along_u = normalized_or(frame.along_u, glm::dvec3(0.0));
-    for (const std::size_t v : t.v) {
-      const glm::dvec3 n = normalized_or(glm::dvec3(primitive.normals[v]), {0.0, 0.0, 1.0});
-      const glm::dvec3 tangent = normalized_or(along_u - n * glm::dot(n, along_u), any_perpendicular(n));
-      primitive.tangents[v] = glm::vec4(glm::vec3(tangent), static_cast<float>(frame.handedness));
-    }
+  std::vector<glm::vec3> normals;
+  normals.reserve(primitive.normals.size());
+  for (const glm::vec3& normal : primitive.normals) {
+    normals.emplace_back(normalized_or(glm::dvec3(normal), {0.0, 0.0, 1.0}));
+  }
+  // Tangents depend on differences of uv alone: without the offset these keep their digits.
+  const glm::dmat2 linear(uv.transform);
+  std::vector<glm::vec2> uvs;
+  uvs.reserve(primitive.positions.size());
+  for (const glm::vec2& given : primitive.texcoords[static_cast<std::size_t>(uv.texcoord)]) {
+    uvs.emplace_back(linear * glm::dvec2(given));
+  }
+  primitive.tangents = mikktspace(primitive.positions, normals, uvs);
+  for (std::size_t v = 0; v < primitive.tangents.size(); ++v) {
+    glm::vec4& tangent = primitive.tangents[v];
+    const glm::dvec3 n(normals[v]);
+    const glm::dvec3 t(tangent);
+    tangent = glm::vec4(glm::vec3(normalized_or(t - n * glm::dot(n, t), any_perpendicular(n))), tangent.w);
   }
 }
 

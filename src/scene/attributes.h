@@ -15,11 +15,11 @@ void unshare_vertices(Primitive& primitive);
 /// front; +Z for a triangle without area) and drops tangents (glTF 2.0, section 3.7.2.1: then the tangents given MUST be ignored).
 void make_flat_normals(Primitive& primitive);
 
-/// Tangents for a primitive without any: unshares the vertices and gives each triangle the direction in which the u of `uv` grows, in the
-/// plane of each corner's normal, with w such that cross(normal, tangent) * w points toward decreasing v, the normal map's green axis (glTF
-/// 2.0, sections 3.7.2.1 and 3.9.3: v grows downwards in the image). The texture coordinates are those after KHR_texture_transform, by
-/// which the map is sampled, so tangent and map agree under rotation and mirroring. A triangle whose uv has no area gets some vector of the
-/// normal's plane.
+/// Tangents for a primitive without any, by MikkTSpace (glTF 2.0, section 3.7.2.1): unshares the vertices, since corners of one vertex may
+/// get different tangents. `uv` is the normal map's; its texture coordinates are taken after KHR_texture_transform, because by these the
+/// map is sampled: tangents of the coordinates as given would turn and mirror the map's directions wherever the transform does. Where
+/// MikkTSpace defines no direction, the tangent is some vector of the normal's plane: the X axis projected into it, unless normal and axis
+/// nearly agree.
 void make_tangents(Primitive& primitive, const TextureInfo& uv);
 
 /// Replaces what interpolation could not use: normals of length zero by the mean of the adjacent triangles' normals, tangents of length

@@ -76,6 +76,39 @@ TEST(Attributes, TangentsFollowTheSetAndTransformOfTheMap) {
   EXPECT_EQ(bitangent(p, 0), glm::vec3(1, 0, 0));
 }
 
+TEST(Attributes, TheOffsetOfTheTransformCostsNoDigits) {
+  Primitive given = square();
+  given.texcoords[0][2] = {0.9f, 0.1f};
+  Primitive shifted = given;
+  TextureInfo info{.texture = 0};
+  make_tangents(given, info);
+  info.transform[2] = {1e9, -1e9, 1};
+  make_tangents(shifted, info);
+  EXPECT_EQ(shifted.tangents, given.tangents);
+}
+
+TEST(Attributes, TrianglesThatShareAVertexShareItsTangent) {
+  Primitive p = square();
+  p.texcoords[0][2] = {0.9f, 0.1f};
+  make_tangents(p, TextureInfo{.texture = 0});
+  EXPECT_EQ(p.tangents[0], p.tangents[3]);
+  EXPECT_EQ(p.tangents[2], p.tangents[4]);
+  EXPECT_NE(p.tangents[1], p.tangents[0]) << "one triangle alone";
+}
+
+// Quantized normals are not exactly unit (KHR_mesh_quantization, implementation note).
+TEST(Attributes, TheLengthOfNormalsDoesNotTurnTangents) {
+  Primitive unit = square();
+  unit.normals.assign(4, {0.6f, 0, 0.8f});
+  Primitive shorter = unit;
+  shorter.normals.assign(4, {0.3f, 0, 0.4f});
+  make_tangents(unit, TextureInfo{.texture = 0});
+  make_tangents(shorter, TextureInfo{.texture = 0});
+  for (std::size_t v = 0; v < 6; ++v) {
+    EXPECT_NEAR(glm::length(shorter.tangents[v] - unit.tangents[v]), 0.0f, 1e-6f);
+  }
+}
+
 TEST(Attributes, TangentsLieInThePlaneOfTheShadingNormal) {
   Primitive p = square();
   p.normals.assign(4, glm::normalize(glm::vec3(1, 0, 1)));

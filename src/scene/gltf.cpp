@@ -9,6 +9,7 @@
 #include "scene/gltf_accessors.h"
 #include "scene/gltf_cameras.h"
 #include "scene/gltf_container.h"
+#include "scene/gltf_conversions.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
@@ -45,7 +46,7 @@ void check_version(const Element& root) {
 void check_extensions(const Element& root, std::vector<std::string>& warnings) {
   for (const std::string& name : root.strings("extensionsRequired")) {
     if (!is_known(name)) {
-      root.fail("extensionsRequired", "holds " + name + ", which is not supported (section 3.12)");
+      root.fail("extensionsRequired", "holds " + name + ", which is not supported (section 3.12)" + conversion_advice(name));
     }
   }
   for (const std::string& name : root.strings("extensionsUsed")) {

@@ -21,7 +21,7 @@ struct Context {
   const Element& element;  ///< the primitive
   Element attributes;      ///< its attributes
   const Accessors& accessors;
-  bool quantized;  ///< KHR_mesh_quantization is used: more component types are allowed
+  bool quantized;  ///< the file names KHR_mesh_quantization: more component types are allowed
   std::size_t vertices = 0;
 };
 
@@ -35,7 +35,10 @@ constexpr Allowed real{ComponentType::Float, false};
 constexpr Allowed unorm8{ComponentType::UnsignedByte, true};
 constexpr Allowed unorm16{ComponentType::UnsignedShort, true};
 
-// KHR_mesh_quantization, "Extending Mesh Attributes": bytes and shorts; those with a direction are signed and normalized.
+constexpr std::string_view quantization = "KHR_mesh_quantization";
+
+// KHR_mesh_quantization, table "Extending Mesh Attributes": every byte and short for positions and texture coordinates, the signed and
+// normalized ones for normals and tangents.
 bool quantized_type(std::string_view name, ComponentType component, bool normalized) {
   const bool is_signed = component == ComponentType::Byte || component == ComponentType::Short;
   if (name == "NORMAL" || name == "TANGENT") {
@@ -60,10 +63,16 @@ int find_attribute(const Context& context, const char* name, std::initializer_li
   const bool normalized = accessors.normalized(index);
   const bool fits =
       std::any_of(allowed.begin(), allowed.end(), [&](const Allowed& a) { return a.component == component && a.normalized == normalized; });
-  if (!fits && !(context.quantized && quantized_type(name, component, normalized))) {
+  const bool by_extension = quantized_type(name, component, normalized);
+  if (!fits && !(context.quantized && by_extension)) {
+    std::string rule = ", which it must not have (section 3.7.2.1)";
+    if (by_extension) {
+      rule = ", which only " + std::string(quantization) + " allows, and extensionsRequired does not name it (section 3.7.2.1)";
+    } else if (context.quantized) {
+      rule = ", which " + std::string(quantization) + " does not allow either (section 3.7.2.1)";
+    }
     context.attributes.fail(name, "refers to accessors[" + std::to_string(index) + "] of component type " +
-                                      std::to_string(static_cast<int>(component)) + (normalized ? " normalized" : "") +
-                                      ", which it must not have (section 3.7.2.1)");
+                                      std::to_string(static_cast<int>(component)) + (normalized ? " normalized" : "") + rule);
   }
   return index;
 }
@@ -225,8 +234,15 @@ std::optional<Primitive> read_primitive(const Element& element, const Accessors&
 
 std::vector<std::vector<int>> read_meshes(const Element& root, const Accessors& accessors, Scene& scene) {
   const std::size_t file_materials = scene.materials.size();
-  const std::vector<std::string> used = root.strings("extensionsUsed");
-  const bool quantized = std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end();
+  const auto listed = [&](const char* list) {
+    const std::vector<std::string> names = root.strings(list);
+    return std::find(names.begin(), names.end(), quantization) != names.end();
+  };
+  const bool required = listed("extensionsRequired");
+  const bool quantized = required || listed("extensionsUsed");
+  if (quantized && !required) {
+    scene.warnings.push_back("extension " + std::string(quantization) + " must stand in extensionsRequired: it is not optional");
+  }
   std::vector<std::vector<int>> meshes;
   for (const Element& mesh : root.children("meshes")) {
     std::vector<int>& primitives = meshes.emplace_back();

@@ -146,8 +146,23 @@ TEST(GltfDocument, UnknownRequiredExtensionsAreRefusedAndUsedOnesWarnedOf) {
   const Scene scene = load(asset);
   ASSERT_EQ(scene.warnings.size(), 1U);
   EXPECT_NE(scene.warnings[0].find("KHR_materials_volume"), std::string::npos);
-  asset.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-  EXPECT_TRUE(names(error_of(asset), "document", "KHR_draco_mesh_compression"));
+  asset.document["extensionsRequired"] = {"KHR_materials_volume"};
+  EXPECT_TRUE(names(error_of(asset), "document", "extensionsRequired holds KHR_materials_volume, which is not supported"));
+}
+
+TEST(GltfDocument, RequiredEncodingsAreRefusedWithTheCommandThatTakesThemOut) {
+  const std::pair<const char*, const char*> extensions[] = {{"KHR_draco_mesh_compression", "gltf-transform copy IN OUT"},
+                                                            {"EXT_meshopt_compression", "gltf-transform copy IN OUT"},
+                                                            {"KHR_texture_basisu", "gltf-transform ktxdecompress IN OUT"},
+                                                            {"EXT_texture_webp", "gltf-transform png IN OUT --formats webp"},
+                                                            {"EXT_texture_avif", "gltf-transform png IN OUT --formats avif"}};
+  for (const auto& [extension, advice] : extensions) {
+    Asset asset = triangle();
+    asset.document["extensionsUsed"] = {extension};
+    asset.document["extensionsRequired"] = {extension};
+    EXPECT_TRUE(names(error_of(asset), "document", extension));
+    EXPECT_TRUE(names(error_of(asset), "document", advice));
+  }
 }
 
 TEST(GltfDocument, NumbersThatAreNotFiniteNameTheirPlace) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "scene/gltf_conversions.h"
+
 namespace sheen::scene {
 namespace {
 
@@ -120,14 +122,17 @@ int Textures::use(int index) {
   }
   if (source.image < 0) {
     std::string alternatives;
+    std::string advice;
     if (const auto extensions = source.element.child("extensions")) {
       for (const std::string& name : extensions->keys()) {
         alternatives += (alternatives.empty() ? "" : ", ") + name;
+        advice += conversion_advice(name);
       }
     }
-    source.element.fail("source", alternatives.empty() ? "is missing, so the texture has no image (section 3.8.2)"
-                                                       : "is missing, and the image that " + alternatives +
-                                                             " gives cannot be decoded here: only PNG and JPEG can (section 3.8.2)");
+    source.element.fail("source", alternatives.empty()
+                                      ? "is missing, so the texture has no image (section 3.8.2)"
+                                      : "is missing, and the image that " + alternatives +
+                                            " gives cannot be decoded here: only PNG and JPEG can (section 3.8.2)" + advice);
   }
   const auto known = std::find(images_.begin(), images_.end(), source.image);
   const auto picture = static_cast<int>(known - images_.begin());

@@ -112,10 +112,17 @@ TEST(GltfTextures, OnlyPicturesThatAMaterialUsesAreLoaded) {
 }
 
 TEST(GltfTextures, TexturesThatOnlyAnExtensionCanDecodeAreRefused) {
-  for (const char* extension : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+  const std::pair<const char*, const char*> extensions[] = {{"KHR_texture_basisu", "gltf-transform ktxdecompress IN OUT"},
+                                                            {"EXT_texture_webp", "gltf-transform png IN OUT --formats webp"},
+                                                            {"EXT_texture_avif", "gltf-transform png IN OUT --formats avif"}};
+  for (const auto& [extension, advice] : extensions) {
     Asset asset = textured();
     asset.document["textures"][0] = {{"extensions", {{extension, {{"source", 0}}}}}};
     EXPECT_TRUE(names(error_of(asset), "textures[0]", extension));
+    EXPECT_TRUE(names(error_of(asset), "textures[0]", advice));
+    // With a picture that can be decoded beside it, the extension is only an offer.
+    asset.document["textures"][0]["source"] = 0;
+    EXPECT_EQ(load(asset).pictures.size(), 1U);
   }
   Asset asset = textured();
   asset.document["textures"][0] = json::object();

@@ -28,7 +28,7 @@ std::string take_size(std::uint32_t width, std::uint32_t height, Picture& pictur
   }
   if (width > largest_side || height > largest_side || width * height > most_pixels) {
     return "is " + std::to_string(width) + " x " + std::to_string(height) + ", more than " + std::to_string(largest_side) +
-           " on a side or " + std::to_string(most_pixels) + " pixels";
+           " on a side or " + std::to_string(most_pixels) + " pixels, the most that is read";
   }
   picture.width = static_cast<int>(width);
   picture.height = static_cast<int>(height);

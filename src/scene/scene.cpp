@@ -34,7 +34,8 @@ std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
-// A text that may come from anywhere, fit for a terminal, a log and JSON: its beginning and its end if it is long.
+}  // namespace
+
 std::string legible(std::string_view text) {
   constexpr std::size_t shown = 180;  // of either end
   const auto part = [](std::string_view piece) {
@@ -68,8 +69,6 @@ std::string legible(std::string_view text) {
   }
   return part(text.substr(0, head)) + " ... " + part(text.substr(tail));
 }
-
-}  // namespace
 
 Error::Error(const std::string& file, const std::string& element, const std::string& rule)
     : std::runtime_error(file + ": " + legible(element) + ": " + legible(rule)) {}

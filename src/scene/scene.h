@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -15,8 +16,12 @@
 
 namespace sheen::scene {
 
+/// A text that may come from anywhere, fit for a terminal, a log and JSON: control characters and whatever is no UTF-8 as \xNN, and of a
+/// long one its beginning and its end.
+std::string legible(std::string_view text);
+
 /// What is wrong with a scene: the file, the element in it ("materials[2] 'velvet'") and the rule it breaks. Element and rule may quote a
-/// hostile file: each is shown in at most some 400 bytes, control characters and whatever is no UTF-8 as \xNN.
+/// hostile file: each is made legible().
 class Error : public std::runtime_error {
  public:
   Error(const std::string& file, const std::string& element, const std::string& rule);
