@@ -194,6 +194,59 @@ TEST_F(CommandLine, LutWritesEveryFormat) {
   EXPECT_NE(text("t.hpp").find("sheen_albedo[64]"), std::string::npos);
 }
 
+TEST_F(CommandLine, LutWritesTheSplitSumBesideTheSheen) {
+  for (const char* name : {"t.exr", "t.hdr", "t.hpp", "t.csv"}) {
+    for (const char* table : {"ggx", "all"}) {
+      const Outcome outcome = run({"lut", "-o", path(name), "--size", "16", "--table", table});
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    }
+  }
+  // At normal incidence the smoothest lobe reflects all of f0 and next to no bias.
+  const image::Image image = image::read(path("t.exr"));
+  EXPECT_NEAR(image.at(15, 0, 0), 1, 1e-3);
+  EXPECT_NEAR(image.at(15, 0, 1), 0, 1e-3);
+  EXPECT_EQ(text("t.csv").substr(0, text("t.csv").find('\n')), "roughness,n_dot_v,scale,bias,directional_albedo");
+  EXPECT_NE(text("t.hpp").find("ggx_split_sum[512]"), std::string::npos);
+  EXPECT_NE(text("t.hpp").find("sheen_albedo[256]"), std::string::npos);
+}
+
+TEST_F(CommandLine, LutNamesWhatItWroteItself) {
+  const auto check = [this](const std::string& name, const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments{"lut", "-o", path(name), "--size", "32"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    EXPECT_EQ(run(arguments).exit_code, 0);
+    const Outcome outcome = run({"lut", "--check", path(name), "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const nlohmann::json report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report["axis"], "roughness");
+    EXPECT_EQ(report["row_shift"], 0);
+    EXPECT_EQ(report["transposed"], false);
+    EXPECT_TRUE(report["flipped"].empty());
+    return report;
+  };
+  for (const char* name : {"t.exr", "t.csv"}) {
+    const nlohmann::json report = check(name, {"--visibility", "refined"});
+    EXPECT_EQ(report["visibility"], "refined");
+    EXPECT_EQ(report["texels"], "centre");
+    EXPECT_LT(report["max_error"], 1e-5);
+  }
+  EXPECT_LE(check("t.hdr", {})["max_relative_error"], 1.0 / 128) << "a mantissa of 8 bits, cut off";
+  EXPECT_EQ(check("t.exr", {"--table", "all", "--visibility", "ashikhmin"})["channel"], "B");
+  const nlohmann::json warped = check("t.exr", {"--layout", "warped"});
+  EXPECT_EQ(warped["layout"], "warped");
+  EXPECT_EQ(warped["texels"], "edge");
+}
+
+TEST_F(CommandLine, LutCheckOfAnotherPictureNamesNothingAndExitsWithOne) {
+  EXPECT_EQ(run({"lut", "-o", path("ggx.exr"), "--table", "ggx"}).exit_code, 0);
+  const Outcome outcome = run({"lut", "--check", path("ggx.exr"), "--json"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  const nlohmann::json report = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(report["visibility"].is_null());
+  EXPECT_TRUE(report["max_error"].is_null());
+  EXPECT_FALSE(report["message"].get<std::string>().empty());
+}
+
 TEST_F(CommandLine, ListNamesTheCasesThatTheFilterLetsThrough) {
   const Outcome all = run({"list", "--json"});
   ASSERT_EQ(all.exit_code, 0) << all.err;
