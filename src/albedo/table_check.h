@@ -30,7 +30,7 @@ struct TableCheck {
   double as_is_error = 0;  ///< largest error when the table is read as it stands: texel centres of (N.V, roughness), first row smoothest
   std::size_t compared = 0, left_out = 0, nonfinite = 0;
 
-  double misfit = 0;                      ///< rms error over the values' standard deviation, both compressed; at most 0.1
+  double misfit = 0;                      ///< rms error over the values' standard deviation, both compressed; at most 0.16
   std::optional<TableReading> runner_up;  ///< the next best reading
   double margin = 0;                      ///< misfit of the runner-up over this one's
   std::vector<std::string> undecided;     ///< fields in which another reading fits as well, the simplest having been taken

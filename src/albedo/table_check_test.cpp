@@ -142,6 +142,18 @@ TEST(TableCheck, TellsCornerAlignedNodesAndShiftsApart) {
   expect(picture(64, 64, [](int x, int y) { return e_of(Visibility::Charlie, x / 64.0, y / 64.0); }), low, 1e-5);
 }
 
+// With few columns, columns half a texel off look like rows several texels off.
+TEST(TableCheck, FindsAFarShiftOfCornerAlignedNodesWithFewColumns) {
+  TableReading reading;
+  reading.texels = TableTexels::Edge;
+  reading.row_shift = 4;
+  reading.clamped = true;
+  const Image image = picture(12, 253, [](int x, int y) {
+    return std::round(255 * std::min(1.0, e_of(Visibility::Charlie, x / 11.0, std::min(1.0, (y + 4) / 252.0)))) / 255;
+  });
+  expect(image, reading, 0.5001 / 255);
+}
+
 // As Filament's cmgen writes it: Ashikhmin's term, the roughest row first and every row one texel too rough.
 TEST(TableCheck, KnowsRowsThatAreOneTexelOff) {
   TableReading reading;
@@ -239,6 +251,14 @@ TEST(TableCheck, ReportsTheLargestErrorAndWhereItIs) {
   EXPECT_EQ(check.nonfinite, 1U);
 }
 
+TEST(TableCheck, SaysWhichFieldsNoiseHides) {
+  TableReading reading;
+  const TableCheck check = check_table(with_noise(centred(Visibility::Charlie, 128, 128), 0.02), false, source());
+  ASSERT_TRUE(check.reading.has_value()) << check.why;
+  EXPECT_EQ(*check.reading, reading) << "of readings that fit alike the simplest is taken";
+  EXPECT_FALSE(check.undecided.empty());
+}
+
 TEST(TableCheck, NamesNothingInOtherPictures) {
   const int size = 48;
   const auto at = [](int k) { return (k + 0.5) / size; };
@@ -263,7 +283,7 @@ TEST(TableCheck, NamesNothingInOtherPictures) {
     EXPECT_FALSE(check.reading.has_value()) << name << ", misfit " << check.misfit;
     EXPECT_FALSE(check.why.empty()) << name;
     if (std::isfinite(check.misfit)) {
-      EXPECT_GT(check.misfit, 0.2) << name << ": too near the limit";
+      EXPECT_GT(check.misfit, 0.22) << name << ": too near the limit";
     }
   }
   EXPECT_FALSE(check_table(centred(Visibility::Charlie, 3, 64), false, source()).reading.has_value());

@@ -13,11 +13,11 @@ namespace {
 
 constexpr int max_row_shift = 8;
 constexpr std::size_t orientations_kept = 3;  // of eight: a shift of many rows may make the true one second best
-constexpr std::size_t families_kept = 6;      // of visibility, form, axis and orientation
+constexpr std::size_t families_kept = 12;     // of visibility, form, axis and orientation
 constexpr double settled = 1e-4;              // loss over variance at which no other form is tried: those cost most
 constexpr double hopeless = 0.5;              // loss over variance that no shift mends
 constexpr double unseen_drop = 14;            // E is below 1e-6 there; not worth the making of a patch
-constexpr int coarse = 24, fine = 48;         // texels a side of a sample
+constexpr int coarse_side = 24;               // of the first sample
 
 /// Squared error of one texel, and the same with E clamped.
 struct SquaredErrors {
@@ -113,24 +113,38 @@ std::vector<TableReading> shifted_readings(const std::vector<ScoredReading>& uns
   return readings;
 }
 
-/// What may be laid out otherwise about a reading found by whole rows: half rows and columns, corner-aligned texels.
-void append_neighbours(std::vector<TableReading>& readings, const TableReading& found) {
+bool same_but_clamped(TableReading a, const TableReading& b) {
+  a.clamped = b.clamped;
+  return a == b;
+}
+
+/// Adds a reading unless it is there, or was scored.
+void append_new(std::vector<TableReading>& readings, const std::vector<ScoredReading>& known, const TableReading& reading) {
+  const auto alike = [&](const TableReading& r) { return same_but_clamped(r, reading); };
+  const auto scored_alike = [&](const ScoredReading& s) { return alike(s.reading); };
+  if (std::none_of(readings.begin(), readings.end(), alike) && std::none_of(known.begin(), known.end(), scored_alike)) {
+    readings.push_back(reading);
+  }
+}
+
+/// What may be laid out otherwise about a reading: rows by halves, columns by a half, corner-aligned texels.
+void append_neighbours(std::vector<TableReading>& readings, const std::vector<ScoredReading>& known, const TableReading& found) {
+  append_new(readings, known, found);
   if (found.form != TableForm::Plain) {
-    readings.push_back(found);
     return;
   }
   for (int half = -3; half <= 3; ++half) {
+    TableReading reading = found;
+    reading.row_shift += 0.5 * half;
+    reading.texels = TableTexels::Centre;
     for (double column_shift : {0.0, -0.5, 0.5}) {
-      TableReading reading = found;
-      reading.row_shift += 0.5 * half;
       reading.column_shift = column_shift;
-      readings.push_back(reading);
+      append_new(readings, known, reading);
     }
-    if (half % 2 == 0) {
-      TableReading reading = found;
+    if (reading.row_shift == std::round(reading.row_shift)) {
+      reading.column_shift = 0;
       reading.texels = TableTexels::Edge;
-      reading.row_shift += 0.5 * half;
-      readings.push_back(reading);
+      append_new(readings, known, reading);
     }
   }
 }
@@ -186,7 +200,7 @@ ScoredReading scored(const TableReading& reading, const TablePlane& plane, const
 }
 
 std::vector<ScoredReading> search(const TablePlane& plane, const AlbedoSource& source) {
-  const TableSample few = sample_of(plane, coarse);
+  const TableSample few = sample_of(plane, coarse_side);
   std::vector<ScoredReading> found = all_scored(unshifted_readings({TableForm::Plain}), plane, few, source);
   if (found.front().loss <= hopeless * few.variance) {
     found = all_scored(shifted_readings(found, plane), plane, few, source);
@@ -200,11 +214,22 @@ std::vector<ScoredReading> search(const TablePlane& plane, const AlbedoSource& s
   if (!(found.front().loss <= hopeless * few.variance)) {
     return {};
   }
-  std::vector<TableReading> readings;
-  for (const ScoredReading& family : best_of_each(found, families_kept, same_family)) {
-    append_neighbours(readings, family.reading);
+  // From the likeliest families on, climb: where an axis has few texels, an error of half of one is made up for by rows of the other.
+  const TableSample many = sample_of(plane, search_side);
+  std::vector<ScoredReading> result, front = best_of_each(found, families_kept, same_family);
+  while (true) {
+    std::vector<TableReading> readings;
+    for (const ScoredReading& from : front) {
+      append_neighbours(readings, result, from.reading);
+    }
+    if (readings.empty()) {
+      return result;
+    }
+    const std::vector<ScoredReading> more = all_scored(readings, plane, many, source);
+    result.insert(result.end(), more.begin(), more.end());
+    std::stable_sort(result.begin(), result.end(), fits_better);
+    front.assign(1, result.front());
   }
-  return all_scored(readings, plane, sample_of(plane, fine), source);
 }
 
 double significance(const TableReading& a, const TableReading& b, const TablePlane& plane, const TableSample& sample,

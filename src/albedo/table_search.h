@@ -59,9 +59,12 @@ struct ScoredReading {
 /// The reading, clamped or not, whichever fits the sample better.
 ScoredReading scored(const TableReading& reading, const TablePlane& plane, const TableSample& sample, const AlbedoSource& source);
 
+/// Texels a side of the sample that the search ends with.
+inline constexpr int search_side = 48;
+
 /// Readings that fit best, best first, each differing from all others in something but `clamped`: coarse to fine over visibility, form,
 /// axis, orientation, shifts of up to 8 rows (an eighth of a small table) in half texels, columns within half a texel, and texels.
-/// Empty where nothing comes near.
+/// Their losses are over sample_of(plane, search_side). Empty where nothing comes near.
 std::vector<ScoredReading> search(const TablePlane& plane, const AlbedoSource& source);
 
 /// How surely a fits better than b: the mean of their squared errors' difference over its standard error. Positive where a is better.
