@@ -22,7 +22,7 @@ TEST_F(CommandLine, EveryCommandHasHelpThatNamesItsFlags) {
                                                                                {{"goldens"}, "verify"},
                                                                                {{"goldens", "generate"}, "--suite"},
                                                                                {{"goldens", "verify"}, "--suite"},
-                                                                               {{"lut"}, "--layout"},
+                                                                               {{"lut"}, "--check"},
                                                                                {{"explain"}, "--visibility"},
                                                                                {{"serve"}, "--context"}};
   for (const auto& [words, flag] : commands) {
@@ -75,6 +75,11 @@ TEST_F(CommandLine, UsageErrorsExitWithTwo) {
   expect_refused(run({"compare", out, out, "--tolerance", "1"}), 2, "--tolerance");
   expect_refused(run({"lut", "-o", path("t.csv"), "--size", "0"}), 2, "--size");
   expect_refused(run({"lut", "-o", path("t.csv"), "--size", "1", "--layout", "warped"}), 2, "--size");
+  expect_refused(run({"lut", "-o", path("t.csv"), "--table", "all", "--layout", "warped"}), 2, "--layout");
+  expect_refused(run({"lut", "-o", path("t.csv"), "--table", "ggx", "--visibility", "charlie"}), 2, "--visibility");
+  expect_refused(run({"lut", "-o", path("t.csv"), "--check", "table.exr"}), 2, "--check");
+  expect_refused(run({"lut", "--check", "table.exr", "--size", "8"}), 2, "--size");
+  expect_refused(run({"lut"}), 2, "--output");
   EXPECT_TRUE(names_starting_with("out").empty());
   EXPECT_TRUE(names_starting_with("t.csv").empty());
 }
@@ -98,7 +103,6 @@ TEST_F(CommandLine, FlagsOfLaterVersionsSaySoAndLeaveNothing) {
   expect_not_yet("render", {"--max-error", "0.01"});
   expect_not_yet("render", {"--environment", "uniform:1,1,1"});
   expect_not_yet("render", {"--environment-rotation", "90"});
-  expect_refused(run({"lut", "-o", path("out.csv"), "--check", "table.exr"}), 2, "not yet");
   EXPECT_TRUE(names_starting_with("out").empty());
 }
 
@@ -150,6 +154,8 @@ TEST_F(CommandLine, AnOutputThatCannotBeWrittenExitsWithThree) {
   expect_refused(run({"render", scene, "-o", path("none/out.exr")}), 3, "none");
   expect_refused(run({"golden", scene, "-o", path("out.txt")}), 3, "out.txt");
   expect_refused(run({"lut", "-o", path("out")}), 3, ".csv");
+  expect_refused(run({"lut", "--check", path("none.exr")}), 3, "none.exr");
+  expect_refused(run({"lut", "--check", path("none.csv")}), 3, "none.csv");
   EXPECT_TRUE(names_starting_with("out").empty());
 }
 

@@ -130,6 +130,49 @@ TEST_F(CommandLine, AnExistingOutputSurvivesAFailure) {
   EXPECT_EQ(names_starting_with("out").size(), 1U);
 }
 
+TEST_F(CommandLine, GoldenTakesLightFromEverywhere) {
+  const std::string scene = write_scene("square");
+  EXPECT_EQ(run(with({"golden", scene, "-o", path("u.exr"), "--environment", "uniform:1,2,3"}, small)).exit_code, 0);
+  // The same light, as an image of one colour.
+  const std::string pfm = path("white.exr");
+  image::Image white(8, 4, {"R", "G", "B"});
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        white.at(x, y, c) = static_cast<float>(c + 1);
+      }
+    }
+  }
+  image::write(pfm, white);
+  ASSERT_EQ(
+      run(with({"golden", scene, "-o", path("i.exr"), "--environment", pfm, "--environment-rotation", "90", "--error", "0.002"}, small))
+          .exit_code,
+      0);
+  EXPECT_EQ(run({"compare", path("i.exr"), path("u.exr"), "--tolerance", "0.02,1e-4"}).exit_code, 0);
+  const image::Image picture = image::read(path("i.exr"));
+  ASSERT_GE(picture.channel("standard_error.G"), 0);
+  ASSERT_EQ(
+      run(with({"golden", scene, "-o", path("j.exr"), "--environment", pfm, "--environment-rotation", "90", "--error", "0.002"}, small))
+          .exit_code,
+      0);
+  EXPECT_EQ(image::read(path("j.exr")).data, picture.data) << "one seed, one image";
+}
+
+TEST_F(CommandLine, AnEnvironmentThatIsNoneIsRefused) {
+  const std::string scene = write_scene("square");
+  for (const std::string text : {"uniform:1,2", "uniform:1,-1,1", "uniform:nan,1,1", "sky.png", "sky"}) {
+    EXPECT_EQ(run({"golden", scene, "-o", path("out.exr"), "--environment", text}).exit_code, 2) << text;
+  }
+  EXPECT_EQ(run({"golden", scene, "-o", path("out.exr"), "--environment", path("none.hdr")}).exit_code, 3);
+  image::Image dark(2, 1, {"R", "G", "B"});
+  dark.at(1, 0, 1) = -1.0F;
+  image::write(path("negative.exr"), dark);
+  const Outcome outcome = run({"golden", scene, "-o", path("out.exr"), "--environment", path("negative.exr")});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("pixel 1, 0"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(names_starting_with("out").empty());
+}
+
 TEST_F(CommandLine, ExplainNamesSheenOnlyWhereThereIsSheen) {
   SceneParts cloth;
   cloth.material = sheen_material();
@@ -192,6 +235,59 @@ TEST_F(CommandLine, LutWritesEveryFormat) {
   }
   EXPECT_EQ(image::read(path("t.exr")).width, 8);
   EXPECT_NE(text("t.hpp").find("sheen_albedo[64]"), std::string::npos);
+}
+
+TEST_F(CommandLine, LutWritesTheSplitSumBesideTheSheen) {
+  for (const char* name : {"t.exr", "t.hdr", "t.hpp", "t.csv"}) {
+    for (const char* table : {"ggx", "all"}) {
+      const Outcome outcome = run({"lut", "-o", path(name), "--size", "16", "--table", table});
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    }
+  }
+  // At normal incidence the smoothest lobe reflects all of f0 and next to no bias.
+  const image::Image image = image::read(path("t.exr"));
+  EXPECT_NEAR(image.at(15, 0, 0), 1, 1e-3);
+  EXPECT_NEAR(image.at(15, 0, 1), 0, 1e-3);
+  EXPECT_EQ(text("t.csv").substr(0, text("t.csv").find('\n')), "roughness,n_dot_v,scale,bias,directional_albedo");
+  EXPECT_NE(text("t.hpp").find("ggx_split_sum[512]"), std::string::npos);
+  EXPECT_NE(text("t.hpp").find("sheen_albedo[256]"), std::string::npos);
+}
+
+TEST_F(CommandLine, LutNamesWhatItWroteItself) {
+  const auto check = [this](const std::string& name, const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments{"lut", "-o", path(name), "--size", "32"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    EXPECT_EQ(run(arguments).exit_code, 0);
+    const Outcome outcome = run({"lut", "--check", path(name), "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const nlohmann::json report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report["axis"], "roughness");
+    EXPECT_EQ(report["row_shift"], 0);
+    EXPECT_EQ(report["transposed"], false);
+    EXPECT_TRUE(report["flipped"].empty());
+    return report;
+  };
+  for (const char* name : {"t.exr", "t.csv"}) {
+    const nlohmann::json report = check(name, {"--visibility", "refined"});
+    EXPECT_EQ(report["visibility"], "refined");
+    EXPECT_EQ(report["texels"], "centre");
+    EXPECT_LT(report["max_error"], 1e-5);
+  }
+  EXPECT_LE(check("t.hdr", {})["max_relative_error"], 1.0 / 128) << "a mantissa of 8 bits, cut off";
+  EXPECT_EQ(check("t.exr", {"--table", "all", "--visibility", "ashikhmin"})["channel"], "B");
+  const nlohmann::json warped = check("t.exr", {"--layout", "warped"});
+  EXPECT_EQ(warped["layout"], "warped");
+  EXPECT_EQ(warped["texels"], "edge");
+}
+
+TEST_F(CommandLine, LutCheckOfAnotherPictureNamesNothingAndExitsWithOne) {
+  EXPECT_EQ(run({"lut", "-o", path("ggx.exr"), "--table", "ggx"}).exit_code, 0);
+  const Outcome outcome = run({"lut", "--check", path("ggx.exr"), "--json"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  const nlohmann::json report = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(report["visibility"].is_null());
+  EXPECT_TRUE(report["max_error"].is_null());
+  EXPECT_FALSE(report["message"].get<std::string>().empty());
 }
 
 TEST_F(CommandLine, ListNamesTheCasesThatTheFilterLetsThrough) {

@@ -179,14 +179,32 @@ Action declare_compare(CLI::App& app) {
 
 Action declare_lut(CLI::App& app) {
   auto options = std::make_shared<LutOptions>();
-  add_path(app, "-o,--output", options->output, ".csv, .exr, .hdr or .hpp (C++ header)")->required();
+  add_path(app, "-o,--output", options->output, ".csv, .exr, .hdr or .hpp (C++ header)");
+  add_word(app, "--table", options->table, lut_table_words,
+           "sheen: the directional albedo E; ggx: scale and bias of f0 of the GGX split sum; all: scale, bias and E as R, G and B");
   add_word(app, "--visibility", options->visibility, visibility_words, "Visibility term of the sheen lobe");
   app.add_option("--size", options->size, "Nodes along each side")->check(CLI::Range(1, max_table_size))->capture_default_str();
   add_word(app, "--layout", options->layout, lut_layout_words,
-           "plain: texel centres of (N.V, roughness); warped: nodes crowded toward grazing");
-  add_not_yet(app, "--check", 1);
+           "plain: texel centres of (N.V, roughness); warped: nodes crowded toward grazing (sheen alone)");
+  CLI::Option* check = add_path(app, "--check", options->check, "Say what a table of E is: .exr, .hdr, .pfm, .png, .jpg or .csv");
+  for (const char* flag : {"--output", "--table", "--visibility", "--size", "--layout"}) {
+    check->excludes(app.get_option(flag));
+  }
   add_json(app, *options);
-  return [options] {
+  const CLI::Option* visibility = app.get_option("--visibility");
+  return [options, visibility_given = [visibility] { return visibility->count() > 0; }] {
+    if (!options->check.empty()) {
+      return lut_check(*options);
+    }
+    if (options->output.empty()) {
+      throw UsageError("lut: --output or --check is needed");
+    }
+    if (options->table != LutTable::Sheen && options->layout == LutLayout::Warped) {
+      throw UsageError("--layout warped: only for --table sheen");
+    }
+    if (options->table == LutTable::Ggx && visibility_given()) {
+      throw UsageError("--visibility: --table ggx has no sheen");
+    }
     if (options->layout == LutLayout::Warped && options->size < 2) {
       throw UsageError("--size: a warped table has at least 2 nodes a side");
     }
@@ -268,7 +286,8 @@ std::vector<Command> commands() {
        {{"generate", "Compute every golden of a suite and write them", "goldens generate --goldens goldens",
          declare_goldens<goldens_generate>},
         {"verify", "Compute every golden again and hold the files to it", "goldens verify", declare_goldens<goldens_verify>}}},
-      {"lut", "Write a table of the sheen lobe's directional albedo", "lut -o sheen_albedo.exr --size 128", declare_lut},
+      {"lut", "Write a table of the sheen lobe's directional albedo, or say what one is", "lut -o sheen_albedo.exr --size 128",
+       declare_lut},
       {"explain", "Say what a scene requires of the renderer", "explain cloth.glb --json", declare_explain},
       {"serve", "Be a viewer: answer requests on stdin by the viewer protocol", "serve --context egl", declare_serve},
   };

@@ -1,21 +1,12 @@
 #include "tools/lut_grid.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "albedo/directional_albedo.h"
+#include "albedo/warped.h"
 
 namespace sheen::tools {
 namespace {
-
-constexpr double warped_min_roughness = 0.02;
-
-double warped_n_dot_v(double u, double r) {
-  if (u >= 1.0) {
-    return 1.0;
-  }
-  return std::max(u * r / (1.0 + r - u), albedo::min_n_dot_v);
-}
 
 /// One row of a table.
 struct Row {
@@ -27,11 +18,20 @@ Row warped_row(int row, int size) {
   const double last = size - 1;
   Row result;
   result.n_dot_v.reserve(static_cast<std::size_t>(size));
-  result.sheen_roughness = row + 1 == size ? 1.0 : warped_min_roughness + (1.0 - warped_min_roughness) * row / last;
+  result.sheen_roughness = albedo::warped_roughness(row / last);
   for (int column = 0; column < size; ++column) {
-    result.n_dot_v.push_back(warped_n_dot_v(column / last, result.sheen_roughness));
+    result.n_dot_v.push_back(albedo::warped_n_dot_v(column / last, result.sheen_roughness));
   }
   return result;
+}
+
+std::vector<double> texel_centres(int size) {
+  std::vector<double> centres;
+  centres.reserve(static_cast<std::size_t>(size));
+  for (int i = 0; i < size; ++i) {
+    centres.push_back((i + 0.5) / size);
+  }
+  return centres;
 }
 
 void append(std::vector<double>& all, const std::vector<double>& more) {
@@ -42,11 +42,7 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
 
 LutGrid lut_grid(albedo::Visibility visibility, LutLayout layout, int size) {
   LutGrid grid;
-  std::vector<double> centres;
-  centres.reserve(static_cast<std::size_t>(size));
-  for (int i = 0; i < size; ++i) {
-    centres.push_back((i + 0.5) / size);
-  }
+  const std::vector<double> centres = texel_centres(size);
   if (layout == LutLayout::Plain) {
     grid.directional_albedo = albedo::evaluate_grid(visibility, centres, centres);
   }
@@ -70,6 +66,11 @@ std::vector<double> stored_values(LutLayout layout, const LutGrid& grid) {
     }
   }
   return stored;
+}
+
+std::vector<albedo::SplitSum> split_sum_grid(int size) {
+  const std::vector<double> centres = texel_centres(size);
+  return albedo::evaluate_split_sum_grid(centres, centres);
 }
 
 const char* describe(LutLayout layout) {

@@ -63,9 +63,12 @@ struct CompareOptions : Common {
 };
 
 enum class LutLayout { Plain, Warped };
+enum class LutTable { Sheen, Ggx, All };
 
 struct LutOptions : Common {
-  std::filesystem::path output;
+  std::filesystem::path output;  ///< empty: none is written, and `check` is read
+  std::filesystem::path check;
+  LutTable table = LutTable::Sheen;
   albedo::Visibility visibility = albedo::Visibility::Charlie;
   int size = 64;
   LutLayout layout = LutLayout::Plain;
@@ -100,6 +103,7 @@ int render(const RenderOptions& options);
 int golden(const GoldenOptions& options);
 int compare(const CompareOptions& options);
 int lut(const LutOptions& options);
+int lut_check(const LutOptions& options);
 int explain(const RenderOptions& options);
 int list(const ListOptions& options);
 int run(const RunOptions& options);

@@ -29,7 +29,7 @@ void gauss_legendre(int n, std::vector<double>& nodes, std::vector<double>& weig
 }  // namespace
 
 // Tanh-sinh: Takahasi and Mori 1974.
-Rule make_rule(int lambda_nodes, double reach, int azimuth_nodes) {
+Rule make_rule(int lambda_nodes, double reach, int azimuth_nodes, int crowding) {
   Rule rule;
   const double step = 2 * reach / (lambda_nodes - 1);
   for (int i = 0; i < lambda_nodes; ++i) {
@@ -44,10 +44,14 @@ Rule make_rule(int lambda_nodes, double reach, int azimuth_nodes) {
   std::vector<double> x, w;
   gauss_legendre(azimuth_nodes, x, w);
   for (int j = 0; j < azimuth_nodes; ++j) {
-    const double tangent = std::tan(brdf::pi / 2 * (1 - x[j] * x[j]));
+    double power = x[j];  // x^(crowding - 1)
+    for (int k = 2; k < crowding; ++k) {
+      power *= x[j];
+    }
+    const double tangent = std::tan(brdf::pi / 2 * (1 - power * x[j]));
     rule.tan2.push_back(tangent * tangent);
-    // Both halves of phi, dpsi = 2 pi x dx, dphi/dpsi = epsilon (1 + tan^2) / (1 + epsilon^2 tan^2).
-    rule.azimuth_weight.push_back(2 * 2 * brdf::pi * x[j] * w[j] * (1 + tangent * tangent));
+    // Both halves of phi, dpsi = pi crowding x^(crowding - 1) dx, dphi/dpsi = epsilon (1 + tan^2) / (1 + epsilon^2 tan^2).
+    rule.azimuth_weight.push_back(2 * crowding * brdf::pi * power * w[j] * (1 + tangent * tangent));
   }
   return rule;
 }

@@ -37,7 +37,8 @@ enum class Effort { Fast, Full };
 const Rule& rule_for(double p, Effort effort);
 
 /// A rule of the given sizes; lambda_nodes is a multiple of the widest batch, `reach` ends tanh-sinh where its weights vanish.
-Rule make_rule(int lambda_nodes, double reach, int azimuth_nodes);
+/// Azimuth nodes crowd at pi as psi = pi (1 - x^crowding).
+Rule make_rule(int lambda_nodes, double reach, int azimuth_nodes, int crowding = 2);
 
 /// One evaluation, with everything that does not depend on the node found once.
 struct Integral {
