@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "conformance/json_text.h"
+
 namespace sheen::conformance {
 namespace {
 
@@ -89,7 +91,7 @@ std::string results_json(const RunRecord& record) {
                      {"summary", summary},
                      {"seconds", record.seconds},
                      {"cases", cases}};
-  return root.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+  return json_text(root, 1) + "\n";
 }
 
 }  // namespace sheen::conformance

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "conformance/case.h"
+#include "conformance/json_text.h"
 #include "gles/context.h"
 #include "image/io.h"
 #include "renderer/renderer.h"
@@ -131,7 +132,7 @@ void serve(std::istream& in, std::ostream& out, const ServeOptions& options) {
       answer["status"] = "failed";
       answer["message"] = error.what();
     }
-    out << answer.dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
+    out << json_text(answer) << std::endl;
   }
 }
 

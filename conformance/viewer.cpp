@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "conformance/case.h"
+#include "conformance/json_text.h"
 #include "conformance/run.h"
 #include "scene/scene.h"
 
@@ -65,9 +66,7 @@ Hello parse_hello(const std::string& line) {
   if (hello.name.empty()) {
     throw std::runtime_error("its first line names no viewer: " + shorten(line));
   }
-  hello.version = root.contains("version") && root["version"].is_number()
-                      ? root["version"].dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
-                      : text_member(root, "version");
+  hello.version = root.contains("version") && root["version"].is_number() ? json_text(root["version"]) : text_member(root, "version");
   if (root.contains("capabilities") && root["capabilities"].is_array()) {
     for (const json& one : root["capabilities"]) {
       if (one.is_string()) {
@@ -160,16 +159,14 @@ Answer Viewer::exchange(const Request& request) {
   const auto begin = std::chrono::steady_clock::now();
   const auto elapsed = [begin] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
   const Deadline deadline = deadline_in(limits_.case_seconds);
-  const bool written = child_->write_line(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), deadline);
+  const bool written = child_->write_line(json_text(line), deadline);
   std::string answer;
   // A viewer that closed its input may still have said why.
   switch (child_->read_line(answer, written ? deadline : deadline_in(1))) {
     case ChildProcess::ReadStatus::Line:
       return interpret(answer, id, request, elapsed());
     case ChildProcess::ReadStatus::Timeout:
-      return lost(AnswerStatus::Timeout,
-                  "no answer within " + json(limits_.case_seconds).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + " s", 0,
-                  elapsed());
+      return lost(AnswerStatus::Timeout, "no answer within " + json_text(json(limits_.case_seconds)) + " s", 0, elapsed());
     case ChildProcess::ReadStatus::TooLong:
       return lost(AnswerStatus::Invalid, "an answer without end", 0, elapsed());
     case ChildProcess::ReadStatus::Closed:
@@ -193,9 +190,7 @@ Answer Viewer::interpret(const std::string& line, const std::string& id, const R
     return lost(AnswerStatus::Invalid, "the answer is no JSON object: " + shorten(line), 0, seconds);
   }
   const auto found = root.find("id");
-  const std::string answered = found == root.end()  ? ""
-                               : found->is_string() ? found->get<std::string>()
-                                                    : found->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string answered = found == root.end() ? "" : found->is_string() ? found->get<std::string>() : json_text(*found);
   if (answered != id) {
     return lost(AnswerStatus::Invalid, "the answer is to request '" + shorten(answered) + "', not to '" + id + "'", 0, seconds);
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "conformance/json_text.h"
 #include "image/io.h"
 #include "image/metrics.h"
 #include "tools/errors.h"
@@ -63,10 +64,10 @@ int compare(const CompareOptions& options) {
     report["within_tolerance"] = within;
   }
   if (options.json) {
-    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::cout << conformance::json_text(report, 2) << '\n';
   } else {
     for (const auto& [name, value] : report.items()) {
-      fmt::print("{:<24} {}\n", name, value.is_null() ? "inf" : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+      fmt::print("{:<24} {}\n", name, value.is_null() ? "inf" : conformance::json_text(value));
     }
   }
   return within ? done : failed;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "conformance/json_text.h"
 #include "renderer/renderer.h"
 #include "tools/errors.h"
 #include "tools/options.h"
@@ -31,7 +32,7 @@ int explain(const RenderOptions& options) {
     for (const auto& [name, entries] : lists) {
       report[name] = *entries;
     }
-    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::cout << conformance::json_text(report, 2) << '\n';
     return done;
   }
   for (const auto& [name, entries] : lists) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "conformance/json_text.h"
 #include "image/io.h"
 #include "tools/errors.h"
 #include "tools/files.h"
@@ -52,18 +53,19 @@ int golden(const GoldenOptions& options) {
   image::write(options.output, picture);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.json) {
-    std::cout << nlohmann::ordered_json{{"output", options.output.string()},
-                                        {"width", picture.width},
-                                        {"height", picture.height},
-                                        {"channels", extension_of(options.output) == ".exr"   ? picture.channels
-                                                     : extension_of(options.output) == ".png" ? std::vector<std::string>{"R", "G", "B", "A"}
-                                                                                              : std::vector<std::string>{"R", "G", "B"}},
-                                        {"visibility", word_of(visibility_words, options.sheen.visibility)},
-                                        {"albedo_scaling", word_of(albedo_scaling_words, options.sheen.scaling)},
-                                        {"formula_version", golden::formula_version},
-                                        {"subpixel_bits", golden::Settings().subpixel_bits},
-                                        {"seconds", seconds}}
-                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+    std::cout << conformance::json_text(nlohmann::ordered_json{{"output", options.output.string()},
+                                                               {"width", picture.width},
+                                                               {"height", picture.height},
+                                                               {"channels", extension_of(options.output) == ".exr" ? picture.channels
+                                                                            : extension_of(options.output) == ".png"
+                                                                                ? std::vector<std::string>{"R", "G", "B", "A"}
+                                                                                : std::vector<std::string>{"R", "G", "B"}},
+                                                               {"visibility", word_of(visibility_words, options.sheen.visibility)},
+                                                               {"albedo_scaling", word_of(albedo_scaling_words, options.sheen.scaling)},
+                                                               {"formula_version", golden::formula_version},
+                                                               {"subpixel_bits", golden::Settings().subpixel_bits},
+                                                               {"seconds", seconds}},
+                                        2)
               << '\n';
   } else {
     fmt::print("{}: {} x {}, {:.2f} s\n", options.output.string(), picture.width, picture.height, seconds);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "conformance/json_text.h"
 #include "tools/errors.h"
 #include "tools/options.h"
 #include "tools/progress.h"
@@ -34,12 +35,12 @@ int process(const GoldensOptions& options, const char* what, Operation operation
     std::cerr << problem << '\n';
   }
   if (options.json) {
-    std::cout << nlohmann::ordered_json{{"suite", options.suite},
-                                        {"goldens", report.dir.string()},
-                                        {"cases", report.cases},
-                                        {"bytes", report.bytes},
-                                        {"problems", report.problems}}
-                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+    std::cout << conformance::json_text(nlohmann::ordered_json{{"suite", options.suite},
+                                                               {"goldens", report.dir.string()},
+                                                               {"cases", report.cases},
+                                                               {"bytes", report.bytes},
+                                                               {"problems", report.problems}},
+                                        2)
               << '\n';
   } else {
     fmt::print("{}: {} goldens, {:.2f} MB, {} problems\n", report.dir.string(), report.cases, static_cast<double>(report.bytes) / 1e6,

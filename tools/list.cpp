@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "conformance/json_text.h"
 #include "conformance/run.h"
 #include "tools/errors.h"
 #include "tools/options.h"
@@ -27,7 +28,7 @@ int list(const ListOptions& options) {
                                {"width", info.width},
                                {"height", info.height}});
   }
-  std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  std::cout << conformance::json_text(report, 2) << '\n';
   return done;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "conformance/json_text.h"
 #include "image/io.h"
 #include "tools/errors.h"
 #include "tools/files.h"
@@ -156,7 +157,7 @@ int lut(const LutOptions& options) {
     write_text(options.output, extension == ".csv" ? csv(options, lut) : header(options, lut));
   }
   if (options.json) {
-    std::cout << report(options, lut).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::cout << conformance::json_text(report(options, lut), 2) << '\n';
   } else {
     fmt::print("{}: {} x {} {}\n", options.output.string(), options.size, options.size, described(options));
   }

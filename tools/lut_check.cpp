@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "albedo/table_check.h"
+#include "conformance/json_text.h"
 #include "tools/errors.h"
 #include "tools/options.h"
 #include "tools/table_file.h"
@@ -141,7 +142,7 @@ int lut_check(const LutOptions& options) {
   const TableFile table = read_table(options.check);
   const TableCheck check = albedo::check_table(table.image, table.from_codes, albedo::AlbedoSource());
   if (options.json) {
-    std::cout << to_json(options, table.image, check).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::cout << conformance::json_text(to_json(options, table.image, check), 2) << '\n';
   } else {
     print(options, table.image, check);
   }

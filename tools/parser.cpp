@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "conformance/case.h"
+#include "conformance/json_text.h"
 #include "conformance/run.h"
 #include "gles/context.h"
 #include "image/io.h"
@@ -30,9 +31,7 @@ constexpr const char* exit_codes =
 int fail(ExitCode code, const std::string& message, bool json) {
   fmt::print(stderr, "sheen-cts: {}\n", message);
   if (json) {
-    std::cout << nlohmann::ordered_json{{"error", message}, {"exit_code", static_cast<int>(code)}}.dump(
-                     2, ' ', false, nlohmann::json::error_handler_t::replace)
-              << '\n';
+    std::cout << conformance::json_text(nlohmann::ordered_json{{"error", message}, {"exit_code", static_cast<int>(code)}}, 2) << '\n';
   }
   return code;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "conformance/json_text.h"
 #include "conformance/verdict.h"
 #include "gles/context.h"
 #include "image/io.h"
@@ -77,7 +78,7 @@ int render(const RenderOptions& options) {
     if (verdict) {
       report["verify"] = describe(*verdict);
     }
-    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::cout << conformance::json_text(report, 2) << '\n';
   } else {
     fmt::print("{}: {} x {}, {}, {:.2f} s\n", options.output.string(), picture.width, picture.height, context->info().renderer, seconds);
     if (verdict) {

@@ -16,11 +16,7 @@ constexpr int size = 48;
 constexpr double ymag = 1.1;
 
 scene::Scene cloth_over_floor() {
-  scene::Material m;
-  m.metallic_factor = 0.2;
-  m.roughness_factor = 0.4;
-  m.sheen.color_factor = {0.9, 0.5, 0.7};
-  m.sheen.roughness_factor = 0.3;
+  const scene::Material m = test::cloth(0.4);
   scene::Scene s = test::scene_with(test::sphere(40, 20), m, test::orthographic_at(5.0, ymag), {test::directional({0.5, 0.6, 1.0})});
   test::add(s, test::square(0.9, -1.5), test::lambertian({0.9, 0.1, 0.1, 1.0}));
   scene::Material pane = test::lambertian({0.1, 0.9, 0.2, 0.4});

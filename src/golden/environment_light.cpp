@@ -60,18 +60,15 @@ glm::dvec3 EnvironmentLight::sample(double u, double v) const {
   double in_column = 0.0;
   const std::size_t row = find(row_cdf_.data(), row_cdf_.size() - 1, v, in_row);
   const std::size_t column = find(column_cdf_.data() + row * (w + 1), w, u, in_column);
-  const double theta = brdf::pi * (static_cast<double>(row) + in_row) / environment_.height;
-  const double azimuth = 2.0 * brdf::pi * ((static_cast<double>(column) + in_column) / environment_.width - 0.5) - environment_.rotation;
-  return {std::sin(theta) * std::cos(azimuth), std::cos(theta), std::sin(theta) * std::sin(azimuth)};
+  return environment_.direction({(static_cast<double>(column) + in_column) / environment_.width,  //
+                                 (static_cast<double>(row) + in_row) / environment_.height});
 }
 
 double EnvironmentLight::pdf(const glm::dvec3& direction) const {
   const auto w = static_cast<std::size_t>(environment_.width);
-  const double turns = 0.5 + (std::atan2(direction.z, direction.x) + environment_.rotation) / (2.0 * brdf::pi);
-  const double u = turns - std::floor(turns);
-  const double v = std::acos(std::clamp(direction.y, -1.0, 1.0)) / brdf::pi;
-  const auto column = std::min(static_cast<std::size_t>(u * environment_.width), w - 1);
-  const auto row = std::min(static_cast<std::size_t>(v * environment_.height), static_cast<std::size_t>(environment_.height) - 1);
+  const glm::dvec2 uv = environment_.coordinates(direction);
+  const auto column = std::min(static_cast<std::size_t>(uv.x * environment_.width), w - 1);
+  const auto row = std::min(static_cast<std::size_t>(uv.y * environment_.height), static_cast<std::size_t>(environment_.height) - 1);
   const double share =
       (row_cdf_[row + 1] - row_cdf_[row]) * (column_cdf_[row * (w + 1) + column + 1] - column_cdf_[row * (w + 1) + column]);
   // d omega = sin(theta) d theta d phi = 2 pi^2 sin(theta) du dv

@@ -14,11 +14,7 @@ constexpr int size = 32;
 
 /// A square tilted away from the camera, so that textures shrink more along one axis than the other.
 scene::Scene tilted_cloth() {
-  scene::Material m;
-  m.metallic_factor = 0.2;
-  m.roughness_factor = 0.3;
-  m.sheen.color_factor = {0.9, 0.5, 0.7};
-  m.sheen.roughness_factor = 0.3;
+  const scene::Material m = test::cloth(0.3);
   scene::Scene s = test::scene_with(test::square(3.0), m, test::camera_at(3.0), {test::directional({0.0, 1.0, 1.0})});
   s.instances[0].world_from_local = glm::rotate(glm::dmat4(1.0), -1.2, glm::dvec3(1.0, 0.0, 0.0));
   return s;

@@ -47,6 +47,16 @@ inline scene::Material lambertian(glm::dvec4 color) {
   return m;
 }
 
+/// Pinkish cloth, a fifth of it metal.
+inline scene::Material cloth(double roughness) {
+  scene::Material m;
+  m.metallic_factor = 0.2;
+  m.roughness_factor = roughness;
+  m.sheen.color_factor = {0.9, 0.5, 0.7};
+  m.sheen.roughness_factor = 0.3;
+  return m;
+}
+
 /// The square [-half, half]^2 at height z, facing +Z, with texture coordinates (0,0) at its upper left and the normal (bend x, bend y, 1)
 /// at each corner: a linear function of the position, so that interpolation is exact wherever the diagonal runs.
 inline scene::Primitive square(double half, double z = 0.0, double bend = 0.0) {

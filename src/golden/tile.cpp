@@ -136,26 +136,35 @@ void Tile::add_shifted(Plan& plan) {
 // that any of the looks meets, at every one of them.
 void Tile::add_carried_on() {
   for (std::size_t k = 0; k < looks_.size(); ++k) {
-    const auto same_as = [&](const Look& look) { return look.seen.same_triangles(looks_[k].seen); };
-    const auto begin = looks_.begin();
-    const auto here = begin + static_cast<std::ptrdiff_t>(k);
-    if (looks_[k].seen.empty() || std::any_of(begin, here, same_as)) {
+    const Seen& seen = looks_[k].seen;
+    if (seen.empty() || seen_before(k)) {
       continue;
     }
     for (const Look& look : looks_) {
-      if (!same_as(look)) {
-        add_sample(extended(looks_[k].seen, look.ray), look.ray);
+      if (!look.seen.same_triangles(seen)) {
+        add_sample(extended(seen, look.ray), look.ray);
       }
     }
   }
+}
+
+// Whether an earlier look meets the same triangles.
+bool Tile::seen_before(std::size_t look) const {
+  const auto last = looks_.begin() + static_cast<std::ptrdiff_t>(look);
+  return std::any_of(looks_.begin(), last, [&](const Look& earlier) { return earlier.seen.same_triangles(looks_[look].seen); });
 }
 
 // Whether a MASK surface in front may be kept or discarded: within the step, its triangle carried on, or by the freedom in the level of
 // detail.
 bool Tile::mask_uncertain() const {
   constexpr std::size_t base_color = 0;
+  std::vector<std::uint32_t> judged;
   for (const Look& met : looks_) {
     for (const Hit& hit : met.seen.masked) {
+      if (std::find(judged.begin(), judged.end(), hit.triangle) != judged.end()) {
+        continue;
+      }
+      judged.push_back(hit.triangle);
       const double cutoff = frame_.geometry.placed(hit.triangle).material->alpha_cutoff;
       Seen alone;
       alone.nearest = hit;
@@ -195,9 +204,7 @@ Tile::Plan Tile::plan(int x, int y) {
   plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
   plan.excluded = plan.excluded || mask_uncertain();
   for (std::size_t k = 0; k < looks_.size(); ++k) {
-    const auto begin = looks_.begin();
-    const auto here = begin + static_cast<std::ptrdiff_t>(k);
-    if (std::none_of(begin, here, [&](const Look& look) { return look.seen.same_triangles(looks_[k].seen); })) {
+    if (!seen_before(k)) {
       add_levels(extended(looks_[k].seen, centre.ray), centre.ray);
     }
   }
@@ -253,8 +260,10 @@ void Tile::add_image_light(const std::vector<Plan>& plans) {
         SamplingGoal goal = frame_.settings.sampling;
         // Each pixel and layer has a sequence of its own, wherever the tiles lie and whoever draws them.
         goal.seed = (goal.seed * 0x100000001B3u + plans[p].pixel) * 64u + layer;
-        const SamplingGoal few{std::numeric_limits<double>::infinity(), 0, goal.seed};
-        coarse_[surface] = estimate(surface, few).mean;
+        if (frame_.settings.bounds) {
+          const SamplingGoal few{std::numeric_limits<double>::infinity(), 0, goal.seed};
+          coarse_[surface] = estimate(surface, few).mean;
+        }
         if (s == plans[p].centre) {
           const Estimate full = estimate(surface, goal);
           refinement_[surface] = full.mean + coarse_[surface] * -1.0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -56,6 +57,7 @@ class Tile {
   Plan plan(int x, int y);
   void add_shifted(Plan& plan);
   void add_carried_on();
+  bool seen_before(std::size_t look) const;
   bool mask_uncertain() const;
   void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {}, const Hit* varied = nullptr);
   void add_sample_with_tie(Seen& seen, const Ray& ray);

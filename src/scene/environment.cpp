@@ -7,17 +7,31 @@
 
 namespace sheen::scene {
 
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+}  // namespace
+
+glm::dvec2 Environment::coordinates(const glm::dvec3& direction) const {
+  // L(d) = image(R_y(-rotation) d), and R_y(a) turns +Z toward +X: atan2(z, x) grows by the rotation.
+  const double u = 0.5 + (std::atan2(direction.z, direction.x) + rotation) / (2.0 * pi);
+  return {u - std::floor(u), std::acos(std::clamp(direction.y, -1.0, 1.0)) / pi};
+}
+
+glm::dvec3 Environment::direction(const glm::dvec2& coordinates) const {
+  const double azimuth = 2.0 * pi * (coordinates.x - 0.5) - rotation;
+  const double theta = pi * coordinates.y;
+  return {std::sin(theta) * std::cos(azimuth), std::cos(theta), std::sin(theta) * std::sin(azimuth)};
+}
+
 glm::dvec3 Environment::radiance(const glm::dvec3& direction) const {
   if (!is_image()) {
     return uniform;
   }
-  constexpr double pi = 3.14159265358979323846;
-  // L(d) = image(R_y(-rotation) d), and R_y(a) turns +Z toward +X: atan2(z, x) grows by the rotation.
-  const double turned = std::atan2(direction.z, direction.x) + rotation;
-  const double u = 0.5 + turned / (2.0 * pi);
-  const double v = std::acos(std::clamp(direction.y, -1.0, 1.0)) / pi;
-  const double x = (u - std::floor(u)) * width - 0.5;
-  const double y = v * height - 0.5;
+  const glm::dvec2 uv = coordinates(direction);
+  const double x = uv.x * width - 0.5;
+  const double y = uv.y * height - 0.5;
   const double column = std::floor(x);
   const double row = std::floor(y);
   const auto texel = [&](int dx, int dy) {

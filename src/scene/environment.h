@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace sheen::scene {
@@ -15,6 +16,10 @@ struct Environment {
   bool background = false;        ///< whether pixels that show no surface show it
 
   bool is_image() const { return width > 0; }
+  /// Where in the image a unit direction is found: u in [0, 1), v in [0, 1], the rotation undone.
+  glm::dvec2 coordinates(const glm::dvec3& direction) const;
+  /// The unit direction found at (u, v): the inverse of coordinates().
+  glm::dvec3 direction(const glm::dvec2& coordinates) const;
   /// What arrives from a unit direction: bilinear between texel centres, around the seam in u, the edge's own row beyond the first and
   /// last.
   glm::dvec3 radiance(const glm::dvec3& direction) const;
