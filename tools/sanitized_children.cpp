@@ -1,4 +1,4 @@
-// Linked into tests that start programs, under the sanitizers: this process has read its own options by now, its children will find these.
+// Linked into tests that start programs. Under the sanitizers this process has read its own options by now, its children will find these.
 
 #include <cstdlib>
 
