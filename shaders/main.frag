@@ -1,6 +1,5 @@
-// Radiance of a surface point under punctual lights:
-//   sum over lights E ((1 - k) (f_sheen + s base) (N.L) + k coat (Nc.L)) + (1 - k) emission
-// Each lobe is weighted by the cosine of its own normal, so a light below N may still be seen in a tilted coat.
+// Radiance of a surface point:
+//   sum over lights E ((1 - k) (f_sheen + s base) (N.L) + k coat (Nc.L)) + the same over the environment + (1 - k) emission
 
 #ifdef NORMAL
 in vec3 v_position;
@@ -18,6 +17,9 @@ void main() {
 #ifdef EMISSION
     vec3 emission = material_emission();
 #endif
+#ifdef ENVIRONMENT
+    float occlusion = material_occlusion();
+#endif
 #ifdef NORMAL
 #ifdef ORTHOGRAPHIC
     vec3 V = vec3(0.0, 0.0, 1.0);
@@ -27,28 +29,30 @@ void main() {
     vec3 Ng = interpolated_normal(v_position);
 #endif
 #ifdef LIT
+    Surface surface;
 #ifdef NORMAL_TEXTURE
     vec3 normal_texel = texture_sample(u_normal_texture, NORMAL_TEXTURE_UV, NORMAL_TEXTURE_SAMPLER).xyz;
-    LayerView view = layer_view(toward_viewer(mapped_normal(Ng, normal_texel, u_normal_scale)), V);
+    surface.view = layer_view(toward_viewer(mapped_normal(Ng, normal_texel, u_normal_scale)), V);
 #else
-    LayerView view = layer_view(toward_viewer(Ng), V);
+    surface.view = layer_view(toward_viewer(Ng), V);
 #endif
     vec2 metallic_roughness = material_metallic_roughness();
-    BaseMaterial base;
-    base.baseColor = base_color.rgb;
-    base.metallic = metallic_roughness.x;
-    base.alpha = metallic_roughness.y * metallic_roughness.y;
+    surface.base.baseColor = base_color.rgb;
+    surface.base.metallic = metallic_roughness.x;
+    surface.base.alpha = metallic_roughness.y * metallic_roughness.y;
+    surface.roughness = metallic_roughness.y;
 #ifdef SPECULAR
     vec4 specular = material_specular();
-    base.f0 = specular.rgb;
-    base.specular = specular.a;
-#endif
+    surface.base.f0 = specular.rgb;
+    surface.base.specular = specular.a;
 #endif
 #ifdef SHEEN
     vec4 sheen_inputs = material_sheen();
-    SheenMaterial sheen = SheenMaterial(sheen_inputs.rgb, sheen_inputs.a, sheen_visibility_of_view(view.NdotV, sheen_inputs.a));
+    float NdotV = surface.view.NdotV;
+    surface.sheen = SheenMaterial(sheen_inputs.rgb, sheen_inputs.a, sheen_visibility_of_view(NdotV, sheen_inputs.a));
 #ifdef ALBEDO_SCALING_VIEW
-    float scale = sheen_albedo_scaling(sheen.sheenColor, sheen.sheenRoughness, view.NdotV);
+    surface.scale = sheen_albedo_scaling(sheen_inputs.rgb, sheen_inputs.a, NdotV);
+#endif
 #endif
 #endif
 #ifdef CLEARCOAT
@@ -60,8 +64,10 @@ void main() {
 #endif
     float k = clearcoat_weight(material_clearcoat(), coat_view.NdotV);
 #ifdef LIT
-    float clearcoat_roughness = material_clearcoat_roughness();
-    float clearcoat_alpha = clearcoat_roughness * clearcoat_roughness;
+    surface.coat_view = coat_view;
+    surface.k = k;
+    surface.clearcoat_roughness = material_clearcoat_roughness();
+    surface.clearcoat_alpha = surface.clearcoat_roughness * surface.clearcoat_roughness;
 #endif
 #endif
 
@@ -70,33 +76,14 @@ void main() {
 #endif
 
     vec3 radiance = vec3(0.0);
-#ifdef LIT
+#ifdef LIGHTS
     for (int i = 0; i < u_light_count; ++i) {
         IncidentLight light = incident_light(i, v_position);
-        vec3 reflected = vec3(0.0);
-        float NdotL = min(dot(view.N, light.L), 1.0);
-        if (NdotL > 0.0) {
-            vec3 H = normalize_or(light.L + view.V, view.N);
-            reflected = base_times_NdotL(base, view.N, view.V, H, NdotL, view.NdotV);
-#ifdef SHEEN
-#ifdef ALBEDO_SCALING_VIEW
-            reflected *= scale;
-#elif !defined(ALBEDO_SCALING_NONE)
-            reflected *= sheen_albedo_scaling(sheen.sheenColor, sheen.sheenRoughness, NdotL, view.NdotV);
-#endif
-            reflected += sheen_times_NdotL(sheen, view.N, H, NdotL);
-#endif
-        }
-#ifdef CLEARCOAT
-        reflected *= 1.0 - k;
-        float NcdotL = min(dot(coat_view.N, light.L), 1.0);
-        if (NcdotL > 0.0) {
-            vec3 Hc = normalize_or(light.L + coat_view.V, coat_view.N);
-            reflected += k * specular_ggx(coat_view.N, Hc, NcdotL, coat_view.NdotV, clearcoat_alpha);
-        }
-#endif
-        radiance += reflected * light.E;
+        radiance += reflected_light(surface, light.L) * light.E;
     }
+#endif
+#ifdef ENVIRONMENT
+    radiance += environment_light(surface) * occlusion;
 #endif
 #ifdef EMISSION
 #ifdef CLEARCOAT

@@ -164,3 +164,21 @@ vec3 material_emission() {
     return value;
 }
 #endif
+
+// glTF 2.0, section 3.9.3: occlusionTexture.r, linear, "1.0 + strength * (occlusionTexture - 1.0)"; of light from the environment alone.
+#ifdef ENVIRONMENT
+#ifdef OCCLUSION_TEXTURE
+uniform sampler2D u_occlusion_texture;
+uniform float u_occlusion_strength;
+#ifdef OCCLUSION_TEXTURE_TRANSFORM
+uniform mat3 u_occlusion_texture_transform;
+#endif
+#endif
+float material_occlusion() {
+#ifdef OCCLUSION_TEXTURE
+    return 1.0 + u_occlusion_strength * (texture_sample(u_occlusion_texture, OCCLUSION_TEXTURE_UV, OCCLUSION_TEXTURE_SAMPLER).r - 1.0);
+#else
+    return 1.0;
+#endif
+}
+#endif

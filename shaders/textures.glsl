@@ -36,15 +36,9 @@ ivec2 level_origin(ivec2 size, int level) {
     return level == 0 ? ivec2(0) : ivec2(size.x, size.y - (size.y >> (level - 1)) + level - 1);
 }
 
-// Section 3.8.10.3: one level, nearest or bilinear.
-vec4 texture_level(sampler2D image, vec2 uv, ivec2 base_size, int level, int wrap_s, int wrap_t, int filter_mode) {
-    ivec2 size = max(base_size >> level, ivec2(1));
-    ivec2 origin = level_origin(base_size, level);
+// Section 3.8.10.3: the four texels around a point of the part of an image that begins at origin.
+vec4 texture_bilinear(sampler2D image, vec2 uv, ivec2 origin, ivec2 size, int wrap_s, int wrap_t) {
     vec2 st = clamp(uv * vec2(size), -1e9, 1e9);
-    if (filter_mode == FILTER_NEAREST) {
-        ivec2 i = ivec2(floor(st));
-        return texelFetch(image, origin + ivec2(wrap_texel(i.x, size.x, wrap_s), wrap_texel(i.y, size.y, wrap_t)), 0);
-    }
     vec2 corner = floor(st - 0.5);
     vec2 weight = st - 0.5 - corner;
     ivec2 i0 = ivec2(corner);
@@ -53,6 +47,15 @@ vec4 texture_level(sampler2D image, vec2 uv, ivec2 base_size, int level, int wra
     vec4 top = mix(texelFetch(image, ivec2(s.x, t.x), 0), texelFetch(image, ivec2(s.y, t.x), 0), weight.x);
     vec4 bottom = mix(texelFetch(image, ivec2(s.x, t.y), 0), texelFetch(image, ivec2(s.y, t.y), 0), weight.x);
     return mix(top, bottom, weight.y);
+}
+
+// One level, nearest or bilinear.
+vec4 texture_level(sampler2D image, vec2 uv, ivec2 base_size, int level, int wrap_s, int wrap_t, int filter_mode) {
+    ivec2 size = max(base_size >> level, ivec2(1));
+    ivec2 origin = level_origin(base_size, level);
+    if (filter_mode == FILTER_LINEAR) return texture_bilinear(image, uv, origin, size, wrap_s, wrap_t);
+    ivec2 i = ivec2(floor(clamp(uv * vec2(size), -1e9, 1e9)));
+    return texelFetch(image, origin + ivec2(wrap_texel(i.x, size.x, wrap_s), wrap_texel(i.y, size.y, wrap_t)), 0);
 }
 
 // Sections 3.8.10.1 to 3.8.11: scale factor, minification or magnification, choice of levels. Must be called in uniform control flow, for

@@ -87,7 +87,7 @@ TEST_F(CommandLine, UsageErrorsExitWithTwo) {
 TEST_F(CommandLine, FlagsOfLaterVersionsSaySoAndLeaveNothing) {
   const std::string scene = write_scene("square");
   const std::string out = path("out.exr");
-  const std::vector<std::vector<std::string>> both{{"--background"}, {"--model", "draft-2019"}, {"--model", "physical"}};
+  const std::vector<std::vector<std::string>> both{{"--model", "draft-2019"}, {"--model", "physical"}};
   const auto expect_not_yet = [&](const std::string& command, const std::vector<std::string>& flags) {
     std::vector<std::string> arguments{command, scene, "-o", out};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
@@ -99,10 +99,7 @@ TEST_F(CommandLine, FlagsOfLaterVersionsSaySoAndLeaveNothing) {
     expect_not_yet("render", flags);
     expect_not_yet("golden", flags);
   }
-  expect_not_yet("render", {"--environment-samples", "16"});
   expect_not_yet("render", {"--max-error", "0.01"});
-  expect_not_yet("render", {"--environment", "uniform:1,1,1"});
-  expect_not_yet("render", {"--environment-rotation", "90"});
   EXPECT_TRUE(names_starting_with("out").empty());
 }
 
@@ -110,7 +107,7 @@ TEST_F(CommandLine, AFailureWithJsonIsOneObjectToo) {
   for (const auto& [arguments, exit_code] :
        std::vector<std::pair<std::vector<std::string>, int>>{{{"explain", path("none.glb"), "--json"}, 3},
                                                              {{"explain", "--nonsense", "--json"}, 2},
-                                                             {{"render", "x.glb", "-o", "x.exr", "--environment", "x.hdr", "--json"}, 2}}) {
+                                                             {{"render", "x.glb", "-o", "x.exr", "--environment", "x.hdr", "--json"}, 3}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, exit_code);
     const nlohmann::json report = nlohmann::json::parse(outcome.out);
@@ -137,16 +134,20 @@ TEST_F(CommandLine, BadInputExitsWithThreeNamingFileElementAndRule) {
   EXPECT_TRUE(names_starting_with("out").empty());
 }
 
-TEST_F(CommandLine, ASceneWithoutLightAsksForOneAndOneIsTaken) {
+TEST_F(CommandLine, ASceneWithoutLightIsLitFromEverywhereAndThatIsSaid) {
   SceneParts parts;
   parts.light = false;
   const std::string scene = write_scene("dark", parts);
-  expect_refused(run({"render", scene, "-o", path("out.exr")}), 3, "--light");
-  expect_refused(run({"golden", scene, "-o", path("out.exr")}), 3, "--light");
-  EXPECT_TRUE(names_starting_with("out").empty());
-  const Outcome outcome = run({"golden", scene, "-o", path("out.exr"), "--width", "8", "--height", "8", "--light", "directional:0,0,1:2"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_TRUE(exists("out.exr"));
+  for (const std::string command : {"render", "golden"}) {
+    const std::string out = path(command + ".exr");
+    const Outcome outcome = run({command, scene, "-o", out, "--width", "8", "--height", "8"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("uniform:1,1,1"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(exists(command + ".exr"));
+  }
+  const Outcome lit = run({"golden", scene, "-o", path("lit.exr"), "--width", "8", "--height", "8", "--light", "directional:0,0,1:2"});
+  EXPECT_EQ(lit.exit_code, 0) << lit.err;
+  EXPECT_EQ(lit.err.find("uniform"), std::string::npos) << lit.err;
 }
 
 TEST_F(CommandLine, AnOutputThatCannotBeWrittenExitsWithThree) {

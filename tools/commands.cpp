@@ -47,12 +47,6 @@ void add_not_yet(CLI::App& app, const std::string& flag, int values) {
       ->group("");
 }
 
-void add_not_yet_flag(CLI::App& app, const std::string& flag) {
-  app.add_flag_callback(
-         flag, [flag] { throw UsageError(flag + ": not yet available in this version"); }, "")
-      ->group("");
-}
-
 CLI::Option* add_path(CLI::App& app, const std::string& flag, std::filesystem::path& target, const std::string& help) {
   return app
       .add_option_function<std::string>(
@@ -94,21 +88,21 @@ void add_scene(CLI::App& app, SceneOptions& options) {
          "The text that is followed: ratified")
       ->type_name("WORD")
       ->default_str("ratified");
-  app.add_option("--seed", options.seed, "Seed of random sampling; nothing is sampled at random under punctual lights")
+  app.add_option("--seed", options.seed, "Seed of the directions drawn toward an environment")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
       ->type_name("INT");
-  add_not_yet_flag(app, "--background");
-  add_json(app, options);
-}
-
-/// Light from everywhere, of golden alone until the renderer has it.
-void add_environment(CLI::App& app, GoldenOptions& options) {
   app.add_option("--environment", options.environment,
                  "uniform:R,G,B (radiance), or an equirect .hdr or .exr; lights beside the scene's lights")
       ->type_name("LIGHT");
   app.add_option("--environment-rotation", options.environment_rotation, "Degrees counter-clockwise about +Y")
       ->check(CLI::Range(-1e6, 1e6))
       ->capture_default_str();
+  app.add_flag("--background", options.background, "Show the environment where no surface is");
+  add_json(app, options);
+}
+
+/// How far an image that lights is sampled.
+void add_sampling(CLI::App& app, GoldenOptions& options) {
   app.add_option("--error", options.error, "Stop sampling an image at this relative standard error (0.01)")
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("REL");
@@ -123,9 +117,10 @@ void add_shader(CLI::App& app, RenderOptions& options) {
   add_word(app, "--formulation", options.formulation, formulation_words,
            "The specification's printed code, or a form that keeps its digits");
   add_word(app, "--albedo-source", options.albedo_source, albedo_source_words, "Where the shader takes the directional albedo from");
-  add_not_yet(app, "--environment", 1);
-  add_not_yet(app, "--environment-rotation", 1);
-  add_not_yet(app, "--environment-samples", 1);
+  app.add_option("--environment-samples", options.environment_samples,
+                 "Draw that many directions a pixel to integrate the environment; 0: filter it beforehand, the real-time way")
+      ->check(CLI::Range(0, 1 << 24))
+      ->capture_default_str();
   add_not_yet(app, "--max-error", 1);
 }
 
@@ -160,7 +155,7 @@ Action declare_golden(CLI::App& app) {
   add_scene(app, *options);
   add_path(app, "-o,--output", options->output, ".exr (with the channels bound.R, bound.G, bound.B and excluded), .hdr, .pfm or .png")
       ->required();
-  add_environment(app, *options);
+  add_sampling(app, *options);
   return [options] { return golden(*options); };
 }
 

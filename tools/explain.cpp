@@ -1,4 +1,5 @@
 #include <iostream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,12 +16,9 @@
 namespace sheen::tools {
 
 int explain(const RenderOptions& options) {
-  scene::Scene scene = load_scene(options);
-  if (scene.lights.empty()) {
-    std::cerr << "note: nothing lights this scene; explained as if --light directional:X,Y,Z:LUX were given\n";
-    scene.lights.emplace_back();
-  }
-  const renderer::Requirements required = renderer::requirements(scene, options.settings());
+  const scene::Scene scene = load_scene(options);
+  const std::optional<scene::Environment> environment = load_environment(options, scene);
+  const renderer::Requirements required = renderer::requirements(scene, options.settings(environment));
   const std::vector<std::pair<const char*, const std::vector<std::string>*>> lists{{"features", &required.features},
                                                                                    {"defines", &required.defines},
                                                                                    {"tables", &required.tables},

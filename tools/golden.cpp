@@ -40,8 +40,7 @@ int golden(const GoldenOptions& options) {
   require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
   image::preload();
   const scene::Scene scene = load_scene(options);
-  const std::optional<scene::Environment> environment = load_environment(options);
-  require_light(scene, environment);
+  const std::optional<scene::Environment> environment = load_environment(options, scene);
   golden::SamplingGoal sampling;
   sampling.seed = static_cast<std::uint64_t>(options.seed);
   if (options.samples) {

@@ -28,6 +28,7 @@ struct SceneOptions : Common {
   std::vector<scene::Light> lights;   ///< --light; when given, they replace the scene's own
   std::string environment;            ///< --environment: "uniform:R,G,B" or a file; empty: none
   double environment_rotation = 0.0;  ///< degrees
+  bool background = false;            ///< --background: whether pixels that show no surface show the environment
   std::int64_t seed = 0;
 };
 
@@ -39,9 +40,19 @@ struct RenderOptions : SceneOptions {
   renderer::AlbedoSource albedo_source = renderer::AlbedoSource::Table;
   bool verify = false;
   ToneMap tone_map = ToneMap::None;
-  double exposure = 0.0;  ///< EV: the radiance written is multiplied by 2^exposure
+  double exposure = 0.0;        ///< EV: the radiance written is multiplied by 2^exposure
+  int environment_samples = 0;  ///< directions drawn a pixel; 0: the image is filtered beforehand
 
-  renderer::Settings settings() const { return {view, sheen, precision, formulation, albedo_source}; }
+  renderer::Settings settings(const std::optional<scene::Environment>& around) const {
+    return {view,
+            sheen,
+            precision,
+            formulation,
+            albedo_source,
+            around ? &*around : nullptr,
+            environment_samples,
+            static_cast<std::uint64_t>(seed)};
+  }
 };
 
 struct GoldenOptions : SceneOptions {

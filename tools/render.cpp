@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "conformance/goldens.h"
 #include "conformance/json_text.h"
 #include "conformance/verdict.h"
 #include "gles/context.h"
@@ -62,13 +63,13 @@ int render(const RenderOptions& options) {
   require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
   image::preload();
   const scene::Scene scene = load_scene(options);
-  require_light(scene);
+  const std::optional<scene::Environment> environment = load_environment(options, scene);
   const std::unique_ptr<gles::Context> context = gles::Context::create(options.context);
-  renderer::Renderer renderer(*context);
-  image::Image picture = renderer.render(scene, options.settings());
+  renderer::Renderer renderer(*context, conformance::default_cache() / "environments");
+  image::Image picture = renderer.render(scene, options.settings(environment));
   std::optional<conformance::Verdict> verdict;
   if (options.verify) {
-    verdict = conformance::judge(picture, golden_image(scene, options, context->info().subpixel_bits), {});
+    verdict = conformance::judge(picture, golden_image(scene, options, context->info().subpixel_bits, environment), {});
   }
   apply_display(picture, options.tone_map, options.exposure);
   image::write(options.output, picture);

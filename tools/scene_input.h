@@ -19,11 +19,8 @@ Tolerance parse_tolerance(const std::string& text);
 /// Loads the scene and puts the lights of --light in place of its own. Warnings of the loader go to stderr. Throws scene::Error.
 scene::Scene load_scene(const SceneOptions& options);
 
-/// What --environment and --environment-rotation describe, none if the first is empty: "uniform:R,G,B" with radiances >= 0, or an equirect
-/// .hdr or .exr, whose values must be finite and >= 0. Throws UsageError, InputError, image::Error.
-std::optional<scene::Environment> load_environment(const SceneOptions& options);
-
-/// Throws InputError when nothing lights the scene, and says what to give.
-void require_light(const scene::Scene& scene, const std::optional<scene::Environment>& environment = std::nullopt);
+/// What --environment, --environment-rotation and --background describe: "uniform:R,G,B" or an equirect .hdr or .exr. Without them none, or
+/// uniform:1,1,1 where the scene has no light, which a note on stderr says. Throws UsageError, scene::Error, image::Error.
+std::optional<scene::Environment> load_environment(const SceneOptions& options, const scene::Scene& scene);
 
 }  // namespace sheen::tools

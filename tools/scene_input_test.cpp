@@ -42,18 +42,40 @@ TEST(ParseTolerance, TakesTwoNumbersThatAreNotNegative) {
   }
 }
 
-TEST(RequireLight, AsksForALightWhenThereIsNone) {
+TEST(LoadEnvironment, LightsADarkSceneFromEverywhereAndNoOther) {
   scene::Scene scene;
   scene.file = "dark.glb";
-  try {
-    require_light(scene);
-    FAIL() << "a dark scene was taken";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("dark.glb"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("--light"), std::string::npos);
-  }
+  SceneOptions options;
+  const auto environment = load_environment(options, scene);
+  ASSERT_TRUE(environment.has_value());
+  EXPECT_EQ(environment->uniform, glm::dvec3(1.0));
+  EXPECT_FALSE(environment->is_image());
   scene.lights.emplace_back();
-  EXPECT_NO_THROW(require_light(scene));
+  EXPECT_FALSE(load_environment(options, scene).has_value());
+}
+
+TEST(LoadEnvironment, TakesThreeNumbersThatAreNotNegative) {
+  const scene::Scene scene;
+  SceneOptions options;
+  options.environment = "uniform:1,0.5,0";
+  options.environment_rotation = 180.0;
+  options.background = true;
+  const auto environment = load_environment(options, scene);
+  EXPECT_EQ(environment->uniform, glm::dvec3(1.0, 0.5, 0.0));
+  EXPECT_NEAR(environment->rotation, 3.14159265, 1e-8);
+  EXPECT_TRUE(environment->background);
+  for (const char* text : {"uniform:", "uniform:1,2", "uniform:1,2,-3", "uniform:1,2,inf", "sky.png", "sky"}) {
+    options.environment = text;
+    EXPECT_THROW(load_environment(options, scene), UsageError) << text;
+  }
+}
+
+TEST(LoadEnvironment, BackgroundNeedsAnEnvironment) {
+  scene::Scene scene;
+  scene.lights.emplace_back();
+  SceneOptions options;
+  options.background = true;
+  EXPECT_THROW(load_environment(options, scene), UsageError);
 }
 
 }  // namespace

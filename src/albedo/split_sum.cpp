@@ -93,6 +93,24 @@ SplitSum ggx_split_sum(double n_dot_v, double roughness) {
   return {sum.all - sum.bias, sum.bias};
 }
 
+double diffuse_fresnel(double n_dot_v) {
+  const double mu = std::clamp(n_dot_v, 0.0, 1.0), sin_v = std::sqrt((1 - mu) * (1 + mu));
+  static const Rule rule = make_rule(48, 3.4, 1);
+  constexpr int steps = 64;  // in azimuth, where the integrand is smooth and periodic
+  double sum = 0;
+  for (std::size_t i = 0; i < rule.left.size(); ++i) {
+    const double lambda = rule.left[i], sin_l = std::sqrt(rule.right[i] * (1 + lambda));
+    double ring = 0;
+    for (int j = 0; j < steps; ++j) {
+      const double v_dot_l = mu * lambda + sin_v * sin_l * std::cos(brdf::pi * (j + 0.5) / steps);
+      const double c = 1 - std::sqrt(std::max(0.5 * (1 + v_dot_l), 0.0));
+      ring += square(square(c)) * c;
+    }
+    sum += rule.weight[i] * lambda * ring;
+  }
+  return 2 * sum / steps;
+}
+
 std::vector<SplitSum> evaluate_split_sum_grid(const std::vector<double>& n_dot_v, const std::vector<double>& roughness) {
   std::vector<SplitSum> result(n_dot_v.size() * roughness.size());
   tbb::parallel_for(std::size_t{0}, result.size(),

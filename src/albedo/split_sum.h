@@ -17,6 +17,11 @@ struct SplitSum {
 /// @param roughness  the user's parameter, [0, 1]; alpha is its square
 SplitSum ggx_split_sum(double n_dot_v, double roughness);
 
+/// Integral of w (N.L) / pi over the hemisphere of L, w = (1 - V.H)^5: what Schlick's Fresnel term takes from a Lambertian base at f0 = 0;
+/// by quadrature to an absolute 1e-9.
+/// @param n_dot_v  [0, 1]
+double diffuse_fresnel(double n_dot_v);
+
 /// The split sums of all cosines and roughnesses given, on all threads: result[j * n_dot_v.size() + i] is that of n_dot_v[i] and
 /// roughness[j].
 std::vector<SplitSum> evaluate_split_sum_grid(const std::vector<double>& n_dot_v, const std::vector<double>& roughness);

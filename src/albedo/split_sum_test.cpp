@@ -134,5 +134,22 @@ TEST(SplitSumGrid, RunsOverCosinesFirst) {
   EXPECT_EQ(grid[4].bias, ggx_split_sum(0.2, 1.0).bias);
 }
 
+TEST(DiffuseFresnel, MeetsTheDefinitionSummedOverTheSphere) {
+  for (const double mu : {0.0, 0.05, 0.3, 0.7, 1.0}) {
+    constexpr int steps = 1500;
+    const double sin_v = std::sqrt(1 - mu * mu);
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+      const double cosine = std::sqrt((i + 0.5) / steps);  // equal shares of the cosine-weighted hemisphere
+      for (int j = 0; j < steps / 10; ++j) {
+        const double phi = 2 * brdf::pi * (j + 0.5) / (steps / 10);
+        const double v_dot_l = mu * cosine + sin_v * std::sqrt(1 - cosine * cosine) * std::cos(phi);
+        sum += std::pow(1 - std::sqrt((1 + v_dot_l) / 2), 5);
+      }
+    }
+    EXPECT_NEAR(diffuse_fresnel(mu), sum / steps / (steps / 10), 2e-6) << "n_dot_v " << mu;
+  }
+}
+
 }  // namespace
 }  // namespace sheen::albedo

@@ -31,7 +31,7 @@ std::string header(const ShaderPlan& plan) {
 }  // namespace
 
 ShaderText assemble(const ShaderPlan& plan, const Settings& settings) {
-  ShaderText text{header(plan) + file_text("main.vert"), header(plan)};
+  ShaderText text{header(plan) + file_text(plan.vertex_file), header(plan)};
   bool mediump = false;
   for (const ShaderFile& file : plan.fragment_files) {
     const bool wanted = file.shading && settings.precision == Precision::Mediump;

@@ -13,6 +13,11 @@ const std::vector<std::string>& feature_names() {
                                  "point_light",
                                  "spot_light",
                                  "many_lights",
+                                 "environment_uniform",
+                                 "environment_image",
+                                 "environment_prefiltered",
+                                 "environment_sampled",
+                                 "background",
                                  "base",
                                  "specular",
                                  "sheen",
@@ -51,6 +56,15 @@ std::vector<std::string> texture_units(const std::vector<ShaderPlan>& plans) {
   }
   if (any([](const ShaderPlan& plan) { return plan.light_texture; })) {
     units.emplace_back("lights");
+  }
+  if (any([](const ShaderPlan& plan) { return plan.environment_image; })) {
+    units.emplace_back("environment");
+  }
+  if (any([](const ShaderPlan& plan) { return plan.split_sum_table; })) {
+    units.emplace_back("split_sum");
+  }
+  if (any([](const ShaderPlan& plan) { return plan.environment_points; })) {
+    units.emplace_back("environment_points");
   }
   return units;
 }

@@ -54,8 +54,9 @@ class Planner {
         primitive_(primitive),
         material_(scene.materials.at(static_cast<std::size_t>(primitive.material))),
         settings_(settings),
+        punctual_(!scene.lights.empty()),
         // Without a light nothing is reflected: what is left is the emission under its coat, and coverage.
-        lit_(!scene.lights.empty()),
+        lit_(punctual_ || settings.environment != nullptr),
         emission_(material_.emissive_factor != glm::dvec3(0.0)),
         sheen_(lit_ && material_.sheen.enabled()),
         clearcoat_((lit_ || emission_) && material_.clearcoat.enabled()),
@@ -65,7 +66,13 @@ class Planner {
     geometry(camera);
     textures();
     if (lit_) {
+      define("LIT");
+    }
+    if (punctual_) {
       lights();
+    }
+    if (settings_.environment != nullptr) {
+      plan_environment(settings_, sheen_, plan_);
     }
     material();
     if (sheen_) {
@@ -126,6 +133,9 @@ class Planner {
     }
     if (name == "emissive_texture") {
       return emission_;
+    }
+    if (name == "occlusion_texture") {
+      return settings_.environment != nullptr;
     }
     if (name == "specular_texture" || name == "specular_color_texture") {
       return lit_ && material_.has_ior_or_specular;
@@ -193,11 +203,14 @@ class Planner {
       plan_.tangents = true;
       uniform(use.name == "normal_texture" ? "u_normal_scale" : "u_clearcoat_normal_scale");
     }
+    if (use.name == "occlusion_texture") {
+      uniform("u_occlusion_strength");
+    }
     plan_.textures.push_back(use);
   }
 
   void lights() {
-    define("LIT");
+    define("LIGHTS");
     const auto any = [&](LightType type) {
       return std::any_of(scene_.lights.begin(), scene_.lights.end(), [&](const scene::Light& light) { return light.type == type; });
     };
@@ -275,10 +288,12 @@ class Planner {
     uniform("u_sheen_color_factor");
     uniform("u_sheen_roughness_factor");
     define("ALBEDO_SCALING_" + upper(scaling_name(settings_.sheen.scaling)));
-    if (settings_.sheen.scaling == albedo::AlbedoScaling::None) {
+    const bool scaled = settings_.sheen.scaling != albedo::AlbedoScaling::None;
+    if (scaled) {
+      feature("albedo_scaling");
+    } else if (!settings_.prefiltered()) {
       return;
     }
-    feature("albedo_scaling");
     if (settings_.albedo_source == AlbedoSource::Table) {
       feature("sheen_albedo_table");
       plan_.sheen_albedo_table = true;
@@ -294,14 +309,14 @@ class Planner {
   void files() {
     const auto add = [&](const std::string& name, bool shading) { plan_.fragment_files.push_back({name, shading}); };
     add("common.glsl", false);
-    if (!plan_.textures.empty()) {
+    if (!plan_.textures.empty() || plan_.environment_image) {
       add("textures.glsl", false);
     }
     add("material.glsl", false);
     if (plan_.normals) {
       add("shading_frame.glsl", false);
     }
-    if (lit_) {
+    if (punctual_) {
       add("lights.glsl", false);
     }
     if (plan_.normals) {
@@ -323,13 +338,26 @@ class Planner {
         add("sheen_lambda.glsl", true);
       }
       add("sheen.glsl", true);
-      if (settings_.sheen.scaling != albedo::AlbedoScaling::None) {
+      if (settings_.sheen.scaling != albedo::AlbedoScaling::None || settings_.prefiltered()) {
         add(plan_.sheen_albedo_table ? "sheen_albedo.glsl" : "sheen_albedo_fit.glsl", false);
+      }
+      if (settings_.sheen.scaling != albedo::AlbedoScaling::None) {
         add("albedo_scaling.glsl", false);
       }
     }
     if (clearcoat_) {
       add("clearcoat.glsl", true);
+    }
+    if (lit_) {
+      add("layers.glsl", false);
+    }
+    if (settings_.environment != nullptr) {
+      if (plan_.environment_image) {
+        add("equirect.glsl", false);
+      }
+      add("environment.glsl", false);
+      add("environment_mirror.glsl", false);
+      add(settings_.prefiltered() ? "environment_prefiltered.glsl" : "environment_sampled.glsl", false);
     }
     add("main.frag", false);
   }
@@ -349,6 +377,7 @@ class Planner {
   const scene::Primitive& primitive_;
   const Material& material_;
   const Settings& settings_;
+  bool punctual_;
   bool lit_;
   bool emission_;
   bool sheen_;

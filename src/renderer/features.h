@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/prefilter.h"
 #include "renderer/renderer.h"
 #include "scene/scene.h"
 #include "scene/texels.h"
@@ -31,11 +32,16 @@ struct ShaderFile {
 struct ShaderPlan {
   std::vector<std::string> features;  ///< of feature_names(), in their order
   std::vector<std::string> defines;   ///< "NAME" or "NAME=VALUE"
+  std::string vertex_file = "main.vert";
   std::vector<ShaderFile> fragment_files;
   std::vector<std::string> uniforms;  ///< every active uniform, of both stages, without samplers
   std::vector<TextureUse> textures;
   bool sheen_albedo_table = false;  ///< reads u_sheen_albedo
   bool light_texture = false;       ///< reads the lights from a texture
+  bool split_sum_table = false;     ///< reads u_split_sum
+  bool environment_image = false;   ///< reads u_environment
+  bool environment_points = false;  ///< reads u_environment_points
+  std::vector<Kernel> kernels;      ///< the filtered maps of u_environment that it reads
   bool normals = false, tangents = false, colors = false;
   bool texcoords[2] = {false, false};
 
@@ -49,7 +55,16 @@ const std::vector<std::string>& feature_names();
 /// std::invalid_argument for a fit of the refined visibility, which nobody has published.
 ShaderPlan plan_shader(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Camera& camera, const Settings& settings);
 
-/// The textures a scene's plans read, each name once, in the order of their texture units; the sheen's table and the lights come last.
+/// Adds what light from everywhere needs of a shader, but for the material's own inputs. `sheen`: the material has that layer.
+void plan_environment(const Settings& settings, bool sheen, ShaderPlan& plan);
+
+/// The shader that fills a picture with the environment.
+ShaderPlan plan_background(const Settings& settings);
+
+/// The textures a scene's plans read, each name once, in the order of their texture units: the materials' first.
 std::vector<std::string> texture_units(const std::vector<ShaderPlan>& plans);
+
+/// The filtered maps that any of the plans reads, each once.
+std::vector<Kernel> kernels_of(const std::vector<ShaderPlan>& plans);
 
 }  // namespace sheen::renderer

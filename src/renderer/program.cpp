@@ -41,6 +41,12 @@ void Program::set(const std::string& name, int value) const {
 void Program::set(const std::string& name, double value) const {
   gl_->Uniform1f(location(name), static_cast<float>(value));
 }
+void Program::set(const std::string& name, const glm::ivec2& value) const {
+  gl_->Uniform2iv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const std::string& name, const glm::dvec2& value) const {
+  gl_->Uniform2fv(location(name), 1, glm::value_ptr(glm::vec2(value)));
+}
 void Program::set(const std::string& name, const glm::dvec3& value) const {
   gl_->Uniform3fv(location(name), 1, glm::value_ptr(glm::vec3(value)));
 }

@@ -6,6 +6,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -26,6 +27,8 @@ class Program {
 
   void set(const std::string& name, int value) const;
   void set(const std::string& name, double value) const;
+  void set(const std::string& name, const glm::ivec2& value) const;
+  void set(const std::string& name, const glm::dvec2& value) const;
   void set(const std::string& name, const glm::dvec3& value) const;
   void set(const std::string& name, const glm::dvec4& value) const;
   void set(const std::string& name, const glm::dmat3& value) const;

@@ -1,13 +1,16 @@
 #include "renderer/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "gles/objects.h"
 #include "renderer/assembly.h"
+#include "renderer/environment_maps.h"
 #include "renderer/features.h"
 #include "renderer/geometry.h"
 #include "renderer/lights.h"
@@ -19,9 +22,9 @@ namespace sheen::renderer {
 
 namespace {
 
-/// What outlives a scene: programs by their source, tables by their visibility, the last target.
+/// What outlives a scene: programs by their source, tables by their visibility, the last target and environment.
 struct Resources {
-  explicit Resources(gles::Context& context_) : context(context_) {}
+  Resources(gles::Context& context_, std::filesystem::path cache) : context(context_), environments(context_, std::move(cache)) {}
 
   const Program& program(const ShaderPlan& plan, const Settings& settings) {
     const ShaderText text = assemble(plan, settings);
@@ -52,6 +55,7 @@ struct Resources {
   std::map<std::string, Program> programs;
   std::map<albedo::Visibility, gles::Texture> tables;
   std::optional<Target> target;
+  EnvironmentMaps environments;
 };
 
 /// One primitive of the scene, ready to be drawn.
@@ -76,6 +80,7 @@ void set_material(const Program& program, const scene::Material& material) {
   program.set("u_clearcoat_factor", material.clearcoat.factor);
   program.set("u_clearcoat_roughness_factor", material.clearcoat.roughness_factor);
   program.set("u_clearcoat_normal_scale", material.clearcoat.normal_scale);
+  program.set("u_occlusion_strength", material.occlusion_strength);
   program.set("u_emissive_factor", material.emissive_factor);
   program.set("u_alpha_cutoff", material.alpha_cutoff);
 }
@@ -98,6 +103,9 @@ class SceneDraw {
   image::Image draw() {
     const Target& target = resources_.target_of(settings_.view.width, settings_.view.height);
     target.begin();
+    if (settings_.environment != nullptr && settings_.environment->background) {
+      draw_background();
+    }
     gl_.Enable(GL_DEPTH_TEST);
     gl_.DepthFunc(GL_LESS);
     gl_.Disable(GL_BLEND);
@@ -141,6 +149,10 @@ class SceneDraw {
     }
     const double aspect = static_cast<double>(settings_.view.width) / static_cast<double>(settings_.view.height);
     clip_from_view_ = scene::clip_from_camera(tighten_depth_range(camera_, boxes, matrices), aspect);
+    if (settings_.environment != nullptr && settings_.environment->background) {
+      plans.push_back(plan_background(settings_));
+    }
+    prepare_environment(plans);
     units_ = texture_units(plans);
     GLint available = 0;
     gl_.GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &available);
@@ -159,6 +171,62 @@ class SceneDraw {
     gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     gl_.BindTexture(GL_TEXTURE_2D, texture);
     program.set("u_" + name, unit);
+  }
+
+  /// Makes what the plans read of the environment. Filtering draws, so it comes before anything else is bound.
+  void prepare_environment(const std::vector<ShaderPlan>& plans) {
+    const auto any = [&](bool ShaderPlan::*reads) {
+      return std::any_of(plans.begin(), plans.end(), [&](const ShaderPlan& plan) { return plan.*reads; });
+    };
+    EnvironmentMaps& maps = resources_.environments;
+    if (any(&ShaderPlan::environment_image)) {
+      around_.image = settings_.prefiltered() ? maps.prefiltered(*settings_.environment, kernels_of(plans))  //
+                                              : maps.sampled(*settings_.environment);
+    }
+    if (any(&ShaderPlan::split_sum_table)) {
+      around_.split_sums = maps.split_sums();
+    }
+    if (any(&ShaderPlan::environment_points)) {
+      around_.points = maps.points(*settings_.environment, settings_.environment_samples, settings_.seed);
+    }
+  }
+
+  void set_environment(const Program& program, const ShaderPlan& plan) const {
+    if (settings_.environment == nullptr) {
+      return;
+    }
+    const scene::Environment& environment = *settings_.environment;
+    if (plan.environment_image) {
+      const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), -environment.rotation, glm::dvec3(0.0, 1.0, 0.0));
+      bind(program, "environment", around_.image);
+      program.set("u_environment_size", glm::ivec2(environment.width, environment.height));
+      program.set("u_environment_from_view", glm::dmat3(turned) * glm::transpose(glm::dmat3(view_from_world_)));
+    } else {
+      program.set("u_environment_uniform", environment.uniform);
+    }
+    if (plan.split_sum_table) {
+      bind(program, "split_sum", around_.split_sums);
+    }
+    if (plan.environment_points) {
+      bind(program, "environment_points", around_.points);
+      program.set("u_environment_samples", settings_.environment_samples);
+    }
+  }
+
+  void draw_background() {
+    const ShaderPlan plan = plan_background(settings_);
+    const Program& program = resources_.program(plan, settings_);
+    program.use();
+    set_environment(program, plan);
+    const double up = camera_.perspective ? std::tan(0.5 * camera_.yfov) : 0.0;
+    program.set("u_viewport", glm::dvec2(settings_.view.width, settings_.view.height));
+    program.set("u_view_extent", glm::dvec2(up * settings_.view.width / settings_.view.height, up));
+    gl_.Disable(GL_DEPTH_TEST);
+    gl_.Disable(GL_CULL_FACE);
+    gl_.Disable(GL_BLEND);
+    const gles::VertexArray nothing(gl_);
+    gl_.BindVertexArray(nothing.name());
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   }
 
   void set_up(const Drawable& drawable, const scene::Instance& instance) {
@@ -181,6 +249,7 @@ class SceneDraw {
     if (table != 0) {
       bind(program, "sheen_albedo", table);
     }
+    set_environment(program, drawable.plan);
     program.set("u_light_count", static_cast<int>(scene_.lights.size()));
     if (drawable.plan.light_texture) {
       bind(program, "lights", light_texture_->name());
@@ -233,6 +302,9 @@ class SceneDraw {
   std::vector<glm::vec4> lights_;
   std::map<int, Drawable> drawables_;
   std::vector<std::string> units_;
+  struct {
+    GLuint image = 0, split_sums = 0, points = 0;
+  } around_;
   Pictures pictures_;
   std::optional<gles::Texture> light_texture_;
 };
@@ -243,7 +315,7 @@ struct Renderer::Impl : Resources {
   using Resources::Resources;
 };
 
-Renderer::Renderer(gles::Context& context) : impl_(std::make_unique<Impl>(context)) {}
+Renderer::Renderer(gles::Context& context, std::filesystem::path cache) : impl_(std::make_unique<Impl>(context, std::move(cache))) {}
 
 Renderer::~Renderer() {
   try {

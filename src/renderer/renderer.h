@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,6 +9,7 @@
 #include "albedo/sheen_model.h"
 #include "gles/context.h"
 #include "image/image.h"
+#include "scene/environment.h"
 #include "scene/scene.h"
 #include "scene/view.h"
 
@@ -24,6 +27,11 @@ struct Settings {
   Precision precision = Precision::Highp;
   Formulation formulation = Formulation::Stable;
   AlbedoSource albedo_source = AlbedoSource::Table;
+  const scene::Environment* environment = nullptr;  ///< light from everywhere; must outlive the call
+  int environment_samples = 0;                      ///< directions drawn a pixel; 0: the image is filtered beforehand instead
+  std::uint64_t seed = 0;                           ///< of the directions drawn
+
+  bool prefiltered() const { return environment != nullptr && environment_samples == 0; }
 };
 
 /// What a scene requires of the renderer, and no more: what is absent stands in `omitted` alone.
@@ -43,7 +51,8 @@ Requirements requirements(const scene::Scene& scene, const Settings& settings);
 class Renderer {
  public:
   /// The context must stay alive; it is made current by every call.
-  explicit Renderer(gles::Context& context);
+  /// @param cache  folder where what is made of environments is kept for the next program; empty: nowhere
+  explicit Renderer(gles::Context& context, std::filesystem::path cache = {});
   ~Renderer();
 
   /// Draws into a 32-bit float target: channels R G B A, radiance over black, rows from the top. Throws gles::Error, scene::Error.

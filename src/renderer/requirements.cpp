@@ -38,6 +38,9 @@ Requirements requirements(const scene::Scene& scene, const Settings& settings) {
     }
     plans.push_back(plan_shader(scene, scene.primitives.at(static_cast<std::size_t>(instance.primitive)), camera, settings));
   }
+  if (settings.environment != nullptr && settings.environment->background) {
+    plans.push_back(plan_background(settings));
+  }
   std::set<std::string> defines;
   std::set<std::string> uniforms;
   Requirements needed;
@@ -57,6 +60,12 @@ Requirements requirements(const scene::Scene& scene, const Settings& settings) {
     if (units[unit] == "sheen_albedo") {
       needed.tables.emplace_back(table_name(settings.sheen.visibility));
     }
+    if (units[unit] == "split_sum") {
+      needed.tables.emplace_back("split_sum:ggx");
+    }
+  }
+  for (const Kernel kernel : kernels_of(plans)) {
+    needed.tables.push_back(std::string("environment:") + kernel_name(kernel));
   }
   return needed;
 }

@@ -154,6 +154,58 @@ TEST_F(EveryShader, CompilesForEveryFeatureAndHasTheUniformsThatRequirementsName
   expect_truth(context_->gl(), everything(), mediump);
 }
 
+TEST_F(EveryShader, CompilesUnderEveryEnvironmentAndHasTheUniformsThatRequirementsNames) {
+  scene::Environment uniform;
+  uniform.uniform = glm::dvec3(1.0);
+  scene::Environment image;
+  image.width = 2;
+  image.height = 1;
+  image.texels.assign(2, glm::vec3(1.0F));
+  scene::Scene bare = test::square_scene({});
+  bare.lights.clear();
+  scene::Scene cloth = bare;
+  cloth.materials[0].sheen.color_factor = glm::dvec3(0.5);
+  scene::Scene coated = cloth;
+  coated.materials[0].clearcoat.factor = 0.5;
+  scene::Scene occluded = test::square_scene({});
+  occluded.materials[0].occlusion_texture = test::add_texture(occluded, test::picture(1, 1, {128, 128, 255, 255}));
+  for (const scene::Environment* environment : {&uniform, &image}) {
+    for (const int samples : {0, 16}) {
+      Settings settings;
+      settings.environment = environment;
+      settings.environment_samples = samples;
+      for (const scene::Scene* scene : {&bare, &cloth, &coated, &occluded}) {
+        expect_truth(context_->gl(), *scene, settings);
+      }
+      for (const albedo::AlbedoScaling scaling :
+           {albedo::AlbedoScaling::View, albedo::AlbedoScaling::None, albedo::AlbedoScaling::Literal}) {
+        settings.sheen.scaling = scaling;
+        expect_truth(context_->gl(), coated, settings);
+      }
+    }
+  }
+}
+
+TEST(Requirements, OnlyTheLobesOfTheSceneAreFilteredOutOfAnEnvironment) {
+  scene::Environment image;
+  image.width = 2;
+  image.height = 1;
+  image.texels.assign(2, glm::vec3(1.0F));
+  Settings settings;
+  settings.environment = &image;
+  scene::Scene scene = test::square_scene({});
+  const std::vector<std::string> base{"split_sum:ggx", "environment:diffuse", "environment:ggx"};
+  EXPECT_EQ(requirements(scene, settings).tables, base);
+  scene.materials[0].sheen.color_factor = glm::dvec3(0.5);
+  settings.sheen.visibility = albedo::Visibility::Ashikhmin;
+  EXPECT_EQ(requirements(scene, settings).tables.back(), "environment:sheen_ashikhmin");
+  settings.environment_samples = 64;
+  EXPECT_EQ(requirements(scene, settings).tables, std::vector<std::string>{"sheen_albedo:ashikhmin"});
+  EXPECT_FALSE(has(requirements(scene, settings).features, "background"));
+  image.background = true;
+  EXPECT_TRUE(has(requirements(scene, settings).features, "background"));
+}
+
 TEST(Requirements, WithoutSheenThereIsNoSheenCodeNoTableAndNoSampler) {
   scene::Scene scene = everything();
   scene.materials[0].sheen.color_factor = glm::dvec3(0.0);

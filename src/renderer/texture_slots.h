@@ -14,12 +14,14 @@ struct TextureSlot {
   scene::ColorSpace space;
 };
 
-inline constexpr std::array<TextureSlot, 11> texture_slots{{
+inline constexpr std::array<TextureSlot, 12> texture_slots{{
     {"base_color_texture", [](const scene::Material& m) -> const scene::TextureInfo& { return m.base_color_texture; },
      scene::ColorSpace::Srgb},
     {"metallic_roughness_texture", [](const scene::Material& m) -> const scene::TextureInfo& { return m.metallic_roughness_texture; },
      scene::ColorSpace::Linear},
     {"normal_texture", [](const scene::Material& m) -> const scene::TextureInfo& { return m.normal_texture; }, scene::ColorSpace::Linear},
+    {"occlusion_texture", [](const scene::Material& m) -> const scene::TextureInfo& { return m.occlusion_texture; },
+     scene::ColorSpace::Linear},
     {"emissive_texture", [](const scene::Material& m) -> const scene::TextureInfo& { return m.emissive_texture; }, scene::ColorSpace::Srgb},
     {"specular_texture", [](const scene::Material& m) -> const scene::TextureInfo& { return m.specular.factor_texture; },
      scene::ColorSpace::Linear},

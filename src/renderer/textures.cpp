@@ -40,22 +40,39 @@ GLuint Pictures::texture(const scene::Scene& scene, const TextureUse& use) {
     return place->second.name();
   }
   scene::Texels texels = scene::decode(picture, use.space);
-  const int columns = mipmapped ? picture.width + (picture.width + 1) / 2 : picture.width;
-  const int rows = mipmapped ? picture.height + mip_rows : picture.height;
-  check_texture_size(*gl_, scene.file + ": picture '" + picture.name + "'" + (mipmapped ? ", with its mipmaps beside it," : ""), columns,
-                     rows);
-  bind_unfiltered(*gl_, place->second.name());
-  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, columns, rows, 0, GL_RGBA, GL_FLOAT, mipmapped ? nullptr : texels.rgba.data());
-  if (mipmapped) {
-    const std::vector<scene::Texels> levels = scene::mipmaps(std::move(texels));
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-      const int x = level == 0 ? 0 : picture.width;
-      const int y = level == 0 ? 0 : picture.height - (picture.height >> (level - 1)) + static_cast<int>(level) - 1;
-      gl_->TexSubImage2D(GL_TEXTURE_2D, 0, x, y, levels[level].width, levels[level].height, GL_RGBA, GL_FLOAT, levels[level].rgba.data());
-    }
-  }
-  gles::check(*gl_, "uploading picture '" + picture.name + "'");
+  const std::string what = scene.file + ": picture '" + picture.name + "'";
+  place->second =
+      mipmapped ? upload_mipmapped(*gl_, what, std::move(texels)) : upload_floats(*gl_, what, texels.width, texels.height, texels.rgba);
   return place->second.name();
+}
+
+gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, int width, int height,
+                            const std::vector<glm::vec4>& texels) {
+  check_texture_size(gl, what, width, height);
+  gles::Texture texture(gl);
+  bind_unfiltered(gl, texture.name());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, texels.data());
+  gles::check(gl, "uploading " + what);
+  return texture;
+}
+
+gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& what, scene::Texels level0) {
+  const int width = level0.width;
+  const int height = level0.height;
+  const int columns = width + (width + 1) / 2;
+  const int rows = height + mip_rows;
+  check_texture_size(gl, what + ", with its mipmaps beside it,", columns, rows);
+  gles::Texture texture(gl);
+  bind_unfiltered(gl, texture.name());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, columns, rows, 0, GL_RGBA, GL_FLOAT, nullptr);
+  const std::vector<scene::Texels> levels = scene::mipmaps(std::move(level0));
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const int x = level == 0 ? 0 : width;
+    const int y = level == 0 ? 0 : height - (height >> (level - 1)) + static_cast<int>(level) - 1;
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, x, y, levels[level].width, levels[level].height, GL_RGBA, GL_FLOAT, levels[level].rgba.data());
+  }
+  gles::check(gl, "uploading " + what);
+  return texture;
 }
 
 gles::Texture upload_table(const gles::Functions& gl, const albedo::Table& table) {
@@ -71,13 +88,7 @@ gles::Texture upload_table(const gles::Functions& gl, const albedo::Table& table
 gles::Texture upload_lights(const gles::Functions& gl, std::vector<glm::vec4> vectors) {
   const std::size_t rows = (vectors.size() + light_texels_a_row - 1) / light_texels_a_row;
   vectors.resize(rows * light_texels_a_row, glm::vec4(0.0f));
-  check_texture_size(gl, "the table of lights", static_cast<int>(light_texels_a_row), static_cast<int>(rows));
-  gles::Texture texture(gl);
-  bind_unfiltered(gl, texture.name());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, static_cast<GLsizei>(light_texels_a_row), static_cast<GLsizei>(rows), 0, GL_RGBA, GL_FLOAT,
-                vectors.data());
-  gles::check(gl, "uploading the lights");
-  return texture;
+  return upload_floats(gl, "the table of lights", static_cast<int>(light_texels_a_row), static_cast<int>(rows), vectors);
 }
 
 }  // namespace sheen::renderer

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -26,6 +27,13 @@ class Pictures {
   const gles::Functions* gl_;
   std::map<Key, gles::Texture> textures_;
 };
+
+/// An RGBA32F texture that nothing filters but the shader, rows from the top. `what` names it where it is too large: gles::Error.
+gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, int width, int height,
+                            const std::vector<glm::vec4>& texels);
+
+/// Likewise with its mipmaps beside it, as shaders/textures.glsl reads them.
+gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& what, scene::Texels level0);
 
 /// An R32F texture of a table of E.
 gles::Texture upload_table(const gles::Functions& gl, const albedo::Table& table);

@@ -8,6 +8,7 @@
 
 #include <xxhash.h>
 
+#include "scene/environment.h"
 #include "scene/gltf.h"
 
 namespace sheen::scene {
@@ -171,6 +172,15 @@ std::string content_hash(const Scene& scene) {
   add_all(hasher, scene.instances);
   add_all(hasher, scene.lights);
   add_all(hasher, scene.cameras);
+  return hasher.hex();
+}
+
+std::string content_hash(const Environment& environment) {
+  Hasher hasher;
+  hasher.add(environment.uniform);
+  hasher.add(environment.width);
+  hasher.add(environment.height);
+  hasher.add(environment.texels);
   return hasher.hex();
 }
 

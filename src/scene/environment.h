@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -24,5 +25,8 @@ struct Environment {
   /// last.
   glm::dvec3 radiance(const glm::dvec3& direction) const;
 };
+
+/// 32 hex digits that depend on the light alone: not on where it is turned, nor on whether it is shown.
+std::string content_hash(const Environment& environment);
 
 }  // namespace sheen::scene

@@ -1,0 +1,204 @@
+// Light from everywhere: both ways of the renderer, held to what can be computed by hand.
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "image/test_folder.h"
+#include "renderer/environment_maps.h"
+#include "renderer/environment_points.h"
+#include "renderer/renderer_fixture.h"
+
+namespace sheen::renderer {
+namespace {
+
+using test::lambert;
+using test::pi;
+
+scene::Environment uniform(double radiance) {
+  scene::Environment made;
+  made.uniform = glm::dvec3(radiance);
+  return made;
+}
+
+scene::Environment image_of(int width, int height, const std::function<double(const glm::dvec3&)>& radiance) {
+  scene::Environment made;
+  made.width = width;
+  made.height = height;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      made.texels.emplace_back(static_cast<float>(radiance(made.direction({(x + 0.5) / width, (y + 0.5) / height}))));
+    }
+  }
+  return made;
+}
+
+/// The material on a square that faces +Z, lit by the environment alone.
+scene::Scene dark_square(const scene::Material& material) {
+  scene::Scene made = test::square_scene(material);
+  made.lights.clear();
+  return made;
+}
+
+scene::Material metal(double roughness) {
+  scene::Material made;
+  made.roughness_factor = roughness;
+  return made;
+}
+
+class UnderAnEnvironment : public test::WithRenderer {
+ protected:
+  static double middle_under(const scene::Environment& environment, const scene::Scene& scene, int samples) {
+    Settings settings;
+    settings.environment = &environment;
+    settings.environment_samples = samples;
+    return middle(scene, settings);
+  }
+};
+
+constexpr int prefiltered = 0;
+constexpr int sampled = 4096;
+
+TEST_F(UnderAnEnvironment, AWhiteLambertianShowsUniformLightAsItIs) {
+  for (const int samples : {prefiltered, sampled}) {
+    EXPECT_NEAR(middle_under(uniform(2.0), dark_square(lambert()), samples), 2.0, 2e-3) << samples;
+    EXPECT_NEAR(middle_under(image_of(8, 4, [](const glm::dvec3&) { return 2.0; }), dark_square(lambert()), samples), 2.0, 6e-3) << samples;
+  }
+}
+
+TEST_F(UnderAnEnvironment, ALambertianUnderAGradientShowsTwoThirdsOfItsSlope) {
+  // The mean of 1 + g.L weighted by the cosine about N is 1 + 2/3 g.N.
+  const auto along = [](const glm::dvec3& g) { return image_of(256, 128, [g](const glm::dvec3& d) { return 1.0 + glm::dot(g, d); }); };
+  for (const int samples : {prefiltered, sampled}) {
+    EXPECT_NEAR(middle_under(along({0.0, 0.0, 0.6}), dark_square(lambert()), samples), 1.4, 5e-3) << samples;
+    EXPECT_NEAR(middle_under(along({0.0, 0.0, -0.6}), dark_square(lambert()), samples), 0.6, 5e-3) << samples;
+    EXPECT_NEAR(middle_under(along({0.6, 0.6, 0.0}), dark_square(lambert()), samples), 1.0, 5e-3) << samples;
+  }
+}
+
+TEST_F(UnderAnEnvironment, AMirrorShowsWhatItMeetsTurnedAsAsked) {
+  // A quarter turn about +Y carries what stands at +X to -Z, and what stands at -X to +Z, where the square looks.
+  scene::Environment sides = image_of(64, 32, [](const glm::dvec3& d) { return 2.0 + d.x; });
+  for (const int samples : {prefiltered, 16}) {
+    sides.rotation = 0.0;
+    EXPECT_NEAR(middle_under(sides, dark_square(metal(0.0)), samples), 2.0, 2e-2);
+    sides.rotation = 0.5 * pi;
+    EXPECT_NEAR(middle_under(sides, dark_square(metal(0.0)), samples), 1.0, 2e-2);
+    sides.rotation = -0.5 * pi;
+    EXPECT_NEAR(middle_under(sides, dark_square(metal(0.0)), samples), 3.0, 2e-2);
+  }
+}
+
+TEST_F(UnderAnEnvironment, BothWaysAgreeWhereTheViewIsAlongTheNormal) {
+  const scene::Environment sky = image_of(256, 128, [](const glm::dvec3& d) { return std::exp(2.0 * d.z + d.x); });
+  scene::Material cloth = metal(0.6);
+  cloth.metallic_factor = 0.3;
+  cloth.clearcoat.factor = 1.0;
+  cloth.clearcoat.roughness_factor = 0.3;
+  for (const scene::Material& material : {metal(0.25), metal(0.5), cloth}) {
+    const double truth = middle_under(sky, dark_square(material), sampled);
+    EXPECT_NEAR(middle_under(sky, dark_square(material), prefiltered), truth, 0.02 * truth) << "roughness " << material.roughness_factor;
+  }
+}
+
+TEST_F(UnderAnEnvironment, ASmallSunIsFoundByBruteForce) {
+  // One texel of 256 x 128 above the square, by far the brightest: a Lambertian shows albedo / pi of its irradiance.
+  scene::Environment sun = image_of(256, 128, [](const glm::dvec3&) { return 0.0; });
+  const int row = 40;
+  const int column = 192;  // u = 0.75: +Z
+  sun.texels[static_cast<std::size_t>(row * 256 + column)] = glm::vec3(1e5F);
+  const glm::dvec3 toward = sun.direction({(column + 0.5) / 256, (row + 0.5) / 128});
+  const double solid_angle = 2.0 * pi * pi * std::sin(pi * (row + 0.5) / 128) / (256.0 * 128.0);
+  const double expected = 1e5 * solid_angle * toward.z / pi;
+  EXPECT_NEAR(middle_under(sun, dark_square(lambert()), sampled), expected, 0.01 * expected);
+}
+
+TEST_F(UnderAnEnvironment, OcclusionDimsTheEnvironmentAndNothingElse) {
+  scene::Scene scene = dark_square(lambert());
+  scene.materials[0].occlusion_texture = test::add_texture(scene, test::picture(1, 1, {51, 255, 255, 255}));
+  scene.materials[0].occlusion_strength = 0.5;
+  const double left = 1.0 + 0.5 * (0.2 - 1.0);
+  for (const int samples : {prefiltered, sampled}) {
+    EXPECT_NEAR(middle_under(uniform(1.0), scene, samples), left, 2e-3);
+  }
+  scene.lights.emplace_back();
+  const double punctual = middle(scene);
+  EXPECT_NEAR(punctual, 1.0 / pi, 1e-6);
+  EXPECT_NEAR(middle_under(uniform(1.0), scene, prefiltered), left + punctual, 2e-3);
+}
+
+TEST_F(UnderAnEnvironment, TheBackgroundIsShownOnlyWhenAskedForAndCounts) {
+  scene::Environment up = image_of(64, 32, [](const glm::dvec3& d) { return 2.0 + d.y; });
+  scene::Scene scene = dark_square(lambert());
+  scene.instances[0].world_from_local = glm::translate(glm::dmat4(1.0), glm::dvec3(100.0, 0.0, 0.0));
+  scene.cameras[0].perspective = true;
+  scene.cameras[0].yfov = 0.5 * pi;
+  Settings settings;
+  settings.environment = &up;
+  EXPECT_EQ(render(scene, 8, settings).at(4, 0, 3), 0.0F);
+  up.background = true;
+  const image::Image picture = render(scene, 8, settings);
+  for (const int y : {0, 3, 7}) {
+    const glm::dvec3 direction = glm::normalize(glm::dvec3((4.5 - 4.0) / 4.0, (4.0 - y - 0.5) / 4.0, -1.0));
+    EXPECT_NEAR(picture.at(4, y, 0), 2.0 + direction.y, 5e-3) << y;
+    EXPECT_EQ(picture.at(4, y, 3), 1.0F);
+  }
+}
+
+TEST(EnvironmentMaps, WhatWasFilteredOnceIsReadTheNextTime) {
+  const image::TestFolder folder;
+  const scene::Environment sky = image_of(32, 16, [](const glm::dvec3& d) { return 1.5 + d.y; });
+  const auto drawn = [&] {
+    const auto context = gles::Context::create_any(gles::ContextKind::OsMesa);
+    Renderer renderer(*context, folder.path());
+    Settings settings;
+    settings.environment = &sky;
+    settings.view.width = settings.view.height = 8;
+    return renderer.render(dark_square(metal(0.5)), settings);
+  };
+  const image::Image first = drawn();
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    ++files;
+    EXPECT_EQ(entry.path().filename().string().find("sheen"), std::string::npos) << "the scene has none";
+  }
+  EXPECT_EQ(files, 3) << "diffuse, GGX and the split sums";
+  EXPECT_EQ(drawn().data, first.data);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    std::ofstream(entry.path()) << "damaged";
+  }
+  EXPECT_EQ(drawn().data, first.data) << "a damaged file is made anew";
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  EXPECT_EQ(drawn().data, first.data);
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
+}
+
+TEST(ImageSampling, DrawsInProportionToTheDensitiesItTells) {
+  scene::Environment sky = image_of(16, 8, [](const glm::dvec3& d) { return 1.0 + d.y; });
+  sky.texels[5 * 16 + 3] = glm::vec3(50.0F);
+  const ImageSampling sampling(sky);
+  // The densities integrate to one over the sphere, and directions fall into each texel as often as its density says.
+  double whole = 0.0;
+  std::vector<double> expected;
+  for (int i = 0; i < 16 * 8; ++i) {
+    // density / sin(theta) times sin(theta) 2 pi^2 / texels
+    expected.push_back(static_cast<double>(sampling.densities()[static_cast<std::size_t>(i)]) * 2.0 * pi * pi / (16.0 * 8.0));
+    whole += expected.back();
+  }
+  EXPECT_NEAR(whole, 1.0, 1e-5);
+  constexpr int count = 100000;
+  std::vector<int> drawn(16 * 8, 0);
+  const PointRows rows = point_rows(count, 7, &sampling);
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>((2 * (i / rows.columns) + 1) * rows.columns + i % rows.columns);
+    const glm::dvec2 uv = sky.coordinates(glm::normalize(glm::dvec3(rows.texels[at])));
+    ++drawn[static_cast<std::size_t>(static_cast<int>(uv.y * 8) * 16 + static_cast<int>(uv.x * 16))];
+  }
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    EXPECT_NEAR(drawn[i], count * expected[i], 0.02 * count * expected[i] + 30.0) << i;
+  }
+}
+
+}  // namespace
+}  // namespace sheen::renderer
