@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "conformance/case.h"
+#include "conformance/environment_input.h"
+#include "conformance/goldens.h"
 #include "conformance/json_text.h"
 #include "gles/context.h"
 #include "image/io.h"
@@ -64,6 +66,13 @@ renderer::Settings read_settings(const json& request, renderer::Precision precis
     return settings;
   }
   for (const auto& [key, value] : request["settings"].items()) {
+    if (key == "environment_samples") {
+      settings.environment_samples = value.get<int>();
+      if (settings.environment_samples < 0) {
+        throw std::invalid_argument("environment_samples must not be negative");
+      }
+      continue;
+    }
     const std::string word = value.get<std::string>();
     if (key == "visibility") {
       settings.sheen.visibility = parse_visibility(word);
@@ -80,16 +89,34 @@ renderer::Settings read_settings(const json& request, renderer::Precision precis
   return settings;
 }
 
-/// Draws what the request asks for and fills the answer in.
-void answer_request(const json& request, renderer::Renderer& renderer, renderer::Precision precision, json& answer) {
-  if (request.contains("environment") && !request["environment"].is_null()) {
-    answer["status"] = "unsupported";
-    answer["message"] = "environments are not drawn by this version";
-    return;
+/// The environment that the last request named: a suite asks for the same one many times.
+class LastEnvironment {
+ public:
+  /// Null for a request without one.
+  const scene::Environment* of(const json& request) {
+    if (!request.contains("environment") || request["environment"].is_null()) {
+      return nullptr;
+    }
+    const std::string text = request["environment"].get<std::string>();
+    if (text != text_) {
+      text_.clear();
+      environment_ = read_environment(text);
+      text_ = text;
+    }
+    return &environment_;
   }
+
+ private:
+  std::string text_;
+  scene::Environment environment_;
+};
+
+/// Draws what the request asks for and fills the answer in.
+void answer_request(const json& request, renderer::Renderer& renderer, renderer::Precision precision, LastEnvironment& last, json& answer) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string output = request.at("output").get<std::string>();
-  const renderer::Settings settings = read_settings(request, precision);
+  renderer::Settings settings = read_settings(request, precision);
+  settings.environment = last.of(request);
   const scene::Scene scene = scene::load_gltf(request.at("scene").get<std::string>());
   image::write(output, renderer.render(scene, settings));
   answer["status"] = "rendered";
@@ -105,12 +132,13 @@ void serve(std::istream& in, std::ostream& out, const ServeOptions& options) {
   image::preload();
   const std::unique_ptr<gles::Context> context = gles::Context::create(kind);
   const gles::ContextInfo& info = context->info();
-  renderer::Renderer renderer(*context);
+  renderer::Renderer renderer(*context, default_cache() / "environments");
+  LastEnvironment last;
   const json hello = {{"viewer", "sheen-cts"},
                       {"version", SHEEN_CTS_VERSION},
                       {"capabilities",
                        {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_materials_ior",
-                        "KHR_materials_specular", "KHR_materials_sheen", "KHR_materials_clearcoat", "settings"}},
+                        "KHR_materials_specular", "KHR_materials_sheen", "KHR_materials_clearcoat", "environment", "settings"}},
                       {"encoding", "linear-float"},
                       {"context",
                        {{"renderer", info.renderer},
@@ -127,7 +155,7 @@ void serve(std::istream& in, std::ostream& out, const ServeOptions& options) {
     try {
       const json request = json::parse(line);
       answer["id"] = request.at("id");
-      answer_request(request, renderer, precision, answer);
+      answer_request(request, renderer, precision, last, answer);
     } catch (const std::exception& error) {
       answer["status"] = "failed";
       answer["message"] = error.what();

@@ -62,7 +62,7 @@ TEST_F(ServeTest, DrawsWhatItIsAskedForAndGoesOnAfterAFailure) {
   json missing = request("b");
   missing["scene"] = (folder_.path() / "missing.glb").string();
   json lit = request("c");
-  lit["environment"] = "room.hdr";
+  lit["environment"] = "missing.hdr";
   json odd = request("d");
   odd["settings"] = {{"visibility", "charly"}};
   const std::vector<std::string> lines = lines_for(request("a").dump() + "\n" + missing.dump() + "\n\n" + lit.dump() + "\n" + odd.dump() +
@@ -75,7 +75,8 @@ TEST_F(ServeTest, DrawsWhatItIsAskedForAndGoesOnAfterAFailure) {
   EXPECT_EQ(image::read(folder_.path() / "a.exr").height, 12);
   EXPECT_EQ(answer(2)["status"], "failed");
   EXPECT_NE(answer(2)["message"].get<std::string>().find("missing.glb"), std::string::npos);
-  EXPECT_EQ(answer(3)["status"], "unsupported");
+  EXPECT_EQ(answer(3)["status"], "failed");
+  EXPECT_NE(answer(3)["message"].get<std::string>().find("missing.hdr"), std::string::npos);
   EXPECT_EQ(answer(4)["status"], "failed");
   EXPECT_EQ(answer(5)["status"], "failed");
   EXPECT_EQ(answer(6)["status"], "rendered");
@@ -87,6 +88,21 @@ TEST_F(ServeTest, SettingsChangeThePicture) {
   other["settings"] = {{"visibility", "ashikhmin"}, {"albedo_scaling", "none"}, {"precision", "highp"}, {"formulation", "stable"}};
   lines_for(plain.dump() + "\n" + other.dump() + "\n");
   EXPECT_NE(image::read(folder_.path() / "plain.exr").data, image::read(folder_.path() / "other.exr").data);
+}
+
+TEST_F(ServeTest, AnEnvironmentLightsThePicture) {
+  json plain = request("plain");
+  json filtered = request("filtered");
+  filtered["environment"] = "uniform:1,1,1";
+  json sampled = filtered;
+  sampled["id"] = "sampled";
+  sampled["output"] = (folder_.path() / "sampled.exr").string();
+  sampled["settings"] = {{"environment_samples", 64}};
+  lines_for(plain.dump() + "\n" + filtered.dump() + "\n" + sampled.dump() + "\n");
+  const image::Image without = image::read(folder_.path() / "plain.exr");
+  const image::Image with = image::read(folder_.path() / "filtered.exr");
+  EXPECT_GT(with.at(8, 6, 1), without.at(8, 6, 1));
+  EXPECT_NE(image::read(folder_.path() / "sampled.exr").data, with.data);
 }
 
 TEST_F(ServeTest, UnknownOptionsAreRefused) {
