@@ -15,7 +15,10 @@
 namespace sheen::renderer {
 namespace {
 
-constexpr int points = 1024;
+constexpr int points = 1024;  // a lobe that directions are drawn from
+// Lobes wider than this are summed over every texel of a level at most so wide: 2.8 degrees, against their 16 and more.
+constexpr double narrow_roughness = 0.3;
+constexpr int summed_width = 128;
 constexpr int levels = 8;
 
 std::vector<ShaderFile> files(Kernel kernel) {
@@ -37,11 +40,14 @@ std::vector<ShaderFile> files(Kernel kernel) {
   return list;
 }
 
-ShaderPlan plan(Kernel kernel) {
+ShaderPlan plan(Kernel kernel, bool narrow) {
   ShaderPlan made;
   made.vertex_file = "fullscreen.vert";
   made.fragment_files = files(kernel);
   made.defines = {kernel == Kernel::Diffuse ? "KERNEL_DIFFUSE" : kernel == Kernel::Ggx ? "KERNEL_GGX" : "KERNEL_SHEEN"};
+  if (narrow) {
+    made.defines.emplace_back("NARROW");
+  }
   return made;
 }
 
@@ -103,7 +109,10 @@ image::Image prefilter(gles::Context& context, const scene::Environment& environ
   const std::vector<FilteredPart> parts = filtered_parts(kernel);
   const int width = parts.front().width;
   const int height = parts.back().y + parts.back().height;
-  const Program program(gl, assemble(plan(kernel), Settings()));
+  int level = 0;
+  while (environment.width >> level > summed_width) {
+    ++level;
+  }
   const PointRows rows = point_rows(points, 0, nullptr);
   const gles::Texture point_texture = upload_floats(gl, "points", rows.columns, rows.rows, rows.texels);
   const gles::Texture picture = upload_mipmapped(gl, "the environment's image", texels_of(environment));
@@ -112,23 +121,34 @@ image::Image prefilter(gles::Context& context, const scene::Environment& environ
   gl.Disable(GL_DEPTH_TEST);
   gl.Disable(GL_CULL_FACE);
   gl.Disable(GL_BLEND);
-  program.use();
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_2D, picture.name());
   gl.ActiveTexture(GL_TEXTURE0 + 1);
   gl.BindTexture(GL_TEXTURE_2D, point_texture.name());
-  program.set("u_image", 0);
-  program.set("u_points", 1);
-  program.set("u_point_count", points);
-  program.set("u_rows", height);
   const gles::VertexArray nothing(gl);
   gl.BindVertexArray(nothing.name());
-  for (const FilteredPart& part : parts) {
-    gl.Viewport(0, height - part.y - part.height, part.width, part.height);
-    program.set("u_origin", glm::ivec2(0, part.y));
-    program.set("u_size", glm::ivec2(part.width, part.height));
-    program.set("u_roughness", part.roughness);
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  for (const bool narrow : {true, false}) {
+    const auto is_asked = [&](const FilteredPart& part) { return (kernel == Kernel::Ggx && part.roughness < narrow_roughness) == narrow; };
+    if (std::none_of(parts.begin(), parts.end(), is_asked)) {
+      continue;
+    }
+    const Program program(gl, assemble(plan(kernel, narrow), Settings()));
+    program.use();
+    program.set("u_image", 0);
+    program.set("u_points", 1);
+    program.set("u_point_count", points);
+    program.set("u_level", level);
+    program.set("u_rows", height);
+    for (const FilteredPart& part : parts) {
+      if (!is_asked(part)) {
+        continue;
+      }
+      gl.Viewport(0, height - part.y - part.height, part.width, part.height);
+      program.set("u_origin", glm::ivec2(0, part.y));
+      program.set("u_size", glm::ivec2(part.width, part.height));
+      program.set("u_roughness", part.roughness);
+      gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    }
   }
   gles::check(gl, std::string("filtering the environment by the lobe ") + kernel_name(kernel));
   return target.read();
