@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scene/environment.h"
+
+namespace sheen::conformance {
+
+/// Whether a suite may name an environment so: "white", the same radiance of 1 from everywhere; "sky", smooth and analytic, brightest about
+/// a hazy sun; "sun", the same sky with a small disc of peak 1e5 in its place.
+bool is_environment(const std::string& name);
+std::string environment_names();
+
+/// The environment of that name, made here; "white" is uniform.
+scene::Environment make_environment(const std::string& name);
+
+/// The same as an equirect .exr in a folder, whose name holds what it shows. An old file is kept. Throws image::Error.
+std::filesystem::path write_environment(const std::string& name, const std::filesystem::path& folder);
+
+}  // namespace sheen::conformance
