@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -184,12 +185,11 @@ void add_lights(GlbBuilder& builder, const json& lights) {
   json punctual = json::array();
   for (const json& light : lights) {
     const std::string type = light["type"].get<std::string>();
-    json made = {{"type", type}, {"intensity", light.value("intensity", 1.0)}};
-    if (light.contains("color")) {
-      made["color"] = light["color"];
-    }
-    if (light.contains("range")) {
-      made["range"] = light["range"];
+    json made = {{"type", type}};
+    for (const char* key : {"color", "intensity", "range"}) {
+      if (light.contains(key)) {
+        made[key] = light[key];
+      }
     }
     json node = {{"name", type + "_" + std::to_string(punctual.size())}};
     node["extensions"]["KHR_lights_punctual"]["light"] = punctual.size();
@@ -201,8 +201,12 @@ void add_lights(GlbBuilder& builder, const json& lights) {
     }
     if (type == "spot") {
       node["rotation"] = rotation_toward(vector_of(light["target"]) - vector_of(light["position"]));
-      made["spot"] = {{"innerConeAngle", light.value("inner_cone", 0.0)},
-                      {"outerConeAngle", light.value("outer_cone", 0.7853981633974483)}};
+      made["spot"] = json::object();
+      for (const auto& [key, member] : {std::pair("inner_cone", "innerConeAngle"), std::pair("outer_cone", "outerConeAngle")}) {
+        if (light.contains(key)) {
+          made["spot"][member] = light[key];
+        }
+      }
     }
     punctual.push_back(std::move(made));
     builder.json()["nodes"].push_back(std::move(node));

@@ -35,7 +35,7 @@ glm::dvec3 vec(const std::array<float, 3>& v) {
 }
 
 TEST(Shapes, WindCounterClockwiseAboutTheirNormals) {
-  for (const char* name : {"sphere", "cloth", "ring"}) {
+  for (const char* name : {"sphere", "cloth", "ring", "square"}) {
     const Shape shape = make_shape(name);
     for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
       const glm::dvec3 a = vec(shape.positions[shape.indices[i]]);
@@ -46,7 +46,7 @@ TEST(Shapes, WindCounterClockwiseAboutTheirNormals) {
 }
 
 TEST(Shapes, FramesAreOrthonormalAndFollowTheTexture) {
-  for (const char* name : {"sphere", "cloth", "ring"}) {
+  for (const char* name : {"sphere", "cloth", "ring", "square"}) {
     const Shape shape = make_shape(name);
     for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
       const std::size_t a = shape.indices[i];
@@ -81,6 +81,18 @@ TEST(Pictures, RepeatWithoutASeamAndTellChannelsApart) {
       }
     }
   }
+}
+
+TEST(Pictures, AKeptChannelIsTheWholePicturesAndTheOthersAreFlat) {
+  const ProceduralPicture whole = make_picture("channels");
+  const ProceduralPicture kept = make_picture("channels.ga");
+  ASSERT_EQ(kept.codes.size(), whole.codes.size());
+  for (std::size_t i = 0; i < whole.codes.size(); ++i) {
+    EXPECT_EQ(kept.codes[i], i % 4 == 1 || i % 4 == 3 ? whole.codes[i] : 128) << i;
+  }
+  EXPECT_FALSE(parse_texture_name("channels."));
+  EXPECT_FALSE(parse_texture_name("channels.x/linear"));
+  EXPECT_TRUE(parse_texture_name("channels.a/linear"));
 }
 
 TEST(CaseScene, EveryCoreCaseLoadsAndIsWhatItsDescriptionSays) {

@@ -5,9 +5,10 @@
 
 namespace sheen::conformance {
 
-/// A suite file as it was when the program was built.
+/// A suite file as it was when the program was built. The first of a name begins the suite, the others add groups to it.
 struct EmbeddedSuite {
   std::string_view name;
+  std::string_view file;
   std::string_view text;
 };
 

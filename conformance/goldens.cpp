@@ -55,6 +55,9 @@ struct Plan {
 };
 
 Plan make_plan(const Suite& suite, const GoldensOptions& options) {
+  if (suite.cases.empty()) {
+    throw std::invalid_argument("suite " + suite.name + " has no goldens: it holds relations between pictures");
+  }
   Plan plan{suite, options.dir.empty() ? find_goldens() : options.dir, {}};
   if (plan.dir.empty()) {
     throw std::invalid_argument("no folder of committed goldens; name one");

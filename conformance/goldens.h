@@ -32,7 +32,7 @@ struct GoldensReport {
 };
 
 /// Computes every golden of the suite and writes DIR/SUITE/CASE.exr (RGBA, PXR24) and DIR/manifest.json; goldens of cases that are no more
-/// are removed. Throws std::invalid_argument (unknown suite, no folder), image::Error, scene::Error.
+/// are removed. Throws std::invalid_argument (unknown suite, one without goldens, no folder), image::Error, scene::Error.
 GoldensReport generate_goldens(const GoldensOptions& options);
 
 /// Recomputes every golden and holds the files to it within PXR24's rounding; names each mismatch, missing file, extra file, and each entry

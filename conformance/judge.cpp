@@ -14,21 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using albedo::SheenModel;
 
-Status status_of(AnswerStatus status) {
-  switch (status) {
-    case AnswerStatus::Unsupported:
-      return Status::Unsupported;
-    case AnswerStatus::Failed:
-      return Status::Fail;
-    case AnswerStatus::Crash:
-      return Status::Crash;
-    case AnswerStatus::Timeout:
-      return Status::Timeout;
-    default:
-      return Status::Invalid;
-  }
-}
-
 bool has_sheen(const scene::Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const scene::Material& material) { return material.sheen.enabled(); });
@@ -93,24 +78,14 @@ image::Image for_display(const image::Image& from) {
   return kept;
 }
 
-void keep_bytes(const fs::path& file, const image::Image& picture, std::vector<std::uint8_t>& bytes) {
-  bytes = image::encode_png(for_display(picture));
+std::vector<std::uint8_t> keep_bytes(const fs::path& file, const image::Image& picture) {
   image::write(file, for_display(picture));
+  return image::encode_png(for_display(picture));
 }
 
 void keep_golden(const fs::path& images, const std::string& name, const image::Image& golden, CasePictures& pictures) {
   image::write(images / (name + ".golden.exr"), golden);
-  keep_bytes(images / (name + ".golden.png"), golden, pictures.golden);
-}
-
-void keep_candidate(const fs::path& images, const std::string& name, const fs::path& source, const image::Image& candidate,
-                    CasePictures& pictures) {
-  const fs::path exr = images / (name + ".candidate.exr");
-  std::error_code error;
-  if (!fs::equivalent(source, exr, error)) {
-    image::write(exr, candidate);
-  }
-  keep_bytes(images / (name + ".candidate.png"), candidate, pictures.candidate);
+  pictures.golden = keep_bytes(images / (name + ".golden.png"), golden);
 }
 
 void judge_picture(const Case& one, const PreparedCase& prepared, const image::Image& candidate, const Hello& hello,
@@ -148,6 +123,31 @@ void judge_picture(const Case& one, const PreparedCase& prepared, const image::I
 }
 
 }  // namespace
+
+Status status_of(AnswerStatus status) {
+  switch (status) {
+    case AnswerStatus::Unsupported:
+      return Status::Unsupported;
+    case AnswerStatus::Failed:
+      return Status::Fail;
+    case AnswerStatus::Crash:
+      return Status::Crash;
+    case AnswerStatus::Timeout:
+      return Status::Timeout;
+    default:
+      return Status::Invalid;
+  }
+}
+
+std::vector<std::uint8_t> keep_candidate(const fs::path& images, const std::string& name, const fs::path& source,
+                                         const image::Image& candidate) {
+  const fs::path exr = images / (name + ".candidate.exr");
+  std::error_code error;
+  if (!fs::equivalent(source, exr, error)) {
+    image::write(exr, candidate);
+  }
+  return keep_bytes(images / (name + ".candidate.png"), candidate);
+}
 
 PreparedCase prepare_case(const Case& one, const GoldenStore& store, const fs::path& scenes, int subpixel_bits) {
   PreparedCase prepared;
@@ -192,7 +192,7 @@ CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answe
     result.message = std::string("the picture cannot be read: ") + error.what();
     return result;
   }
-  keep_candidate(images, one.name, answer.image, candidate, result.pictures);
+  result.pictures.candidate = keep_candidate(images, one.name, answer.image, candidate);
   judge_picture(one, prepared, candidate, hello, store, result);
   return result;
 }

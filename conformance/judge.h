@@ -29,6 +29,13 @@ struct CasePictures {
   std::vector<std::uint8_t> candidate, golden, difference;
 };
 
+/// The picture of one scene of a relation.
+struct ScenePicture {
+  std::string label;
+  std::filesystem::path scene_file;
+  std::vector<std::uint8_t> png;  ///< empty when there is none
+};
+
 struct CaseResult {
   std::string name;
   Status status = Status::Invalid;
@@ -41,6 +48,8 @@ struct CaseResult {
   std::filesystem::path scene_file;
   std::optional<Diagnosis> diagnosis;
   CasePictures pictures;
+  std::vector<ScenePicture> scenes;  ///< of a relation, in the place of candidate and golden
+  std::string law;                   ///< of a relation, with its source
 };
 
 /// Writes the scene, reads it back, computes the golden. Never throws: what goes wrong is the case's `problem`. Safe to call from many
@@ -52,6 +61,13 @@ PreparedCase prepare_case(const Case& one, const GoldenStore& store, const std::
 /// meets one of those is an approximation; one that can be told fails, and is told what it seems to draw.
 CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answer& answer, const Hello& hello, const GoldenStore& store,
                       const std::filesystem::path& images);
+
+/// What a viewer's answer without a picture makes of a case.
+Status status_of(AnswerStatus status);
+
+/// Writes a candidate to images/NAME.candidate.exr (unless the viewer has) and .png. Returns the bytes of the latter. Throws image::Error.
+std::vector<std::uint8_t> keep_candidate(const std::filesystem::path& images, const std::string& name, const std::filesystem::path& source,
+                                         const image::Image& candidate);
 
 /// The difference as the report paints it: error over bound, dark green to yellow up to 1, red to white above, blue-grey where left out.
 image::Image paint_ratios(const std::vector<double>& ratios, int width, int height);

@@ -51,6 +51,10 @@ Texel ripples_texel(double u, double v) {
   return normal_texel(0.4 * slope, slope, 0.3);
 }
 
+Texel flat_texel(double, double) {
+  return {0.2, 0.4, 0.6, 0.8};
+}
+
 struct Recipe {
   int width, height, channels, bits;
   std::function<Texel(double, double)> texel;
@@ -58,10 +62,29 @@ struct Recipe {
 
 const std::map<std::string, Recipe>& recipes() {
   static const std::map<std::string, Recipe> all = {
-      {"channels", {64, 64, 4, 8, channels_texel}}, {"weave", {64, 64, 4, 8, weave_texel}}, {"weave16", {64, 64, 4, 16, weave_texel}},
-      {"odd", {37, 23, 4, 8, channels_texel}},      {"bumps", {64, 64, 3, 8, bumps_texel}}, {"ripples", {64, 64, 3, 8, ripples_texel}},
+      {"channels", {64, 64, 4, 8, channels_texel}}, {"weave", {64, 64, 4, 8, weave_texel}},  {"weave16", {64, 64, 4, 16, weave_texel}},
+      {"flat", {4, 4, 4, 8, flat_texel}},           {"odd", {37, 23, 4, 8, channels_texel}}, {"bumps", {64, 64, 3, 8, bumps_texel}},
+      {"ripples", {64, 64, 3, 8, ripples_texel}},
   };
   return all;
+}
+
+/// A picture's name taken apart: that of its recipe, and which channels are kept.
+struct PictureName {
+  std::string recipe;
+  std::string kept = "rgba";
+};
+
+std::optional<PictureName> parse_picture_name(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  PictureName parsed{name.substr(0, dot)};
+  if (dot != std::string::npos) {
+    parsed.kept = name.substr(dot + 1);
+  }
+  if (!recipes().contains(parsed.recipe) || parsed.kept.empty() || parsed.kept.find_first_not_of("rgba") != std::string::npos) {
+    return std::nullopt;
+  }
+  return parsed;
 }
 
 const std::map<std::string, SamplerChoice>& samplers() {
@@ -81,7 +104,7 @@ const std::map<std::string, SamplerChoice>& samplers() {
 std::optional<TextureName> parse_texture_name(const std::string& name) {
   const std::size_t slash = name.find('/');
   TextureName parsed{name.substr(0, slash), slash == std::string::npos ? "" : name.substr(slash + 1)};
-  if (!recipes().contains(parsed.picture) || !samplers().contains(parsed.sampler)) {
+  if (!parse_picture_name(parsed.picture) || !samplers().contains(parsed.sampler)) {
     return std::nullopt;
   }
   return parsed;
@@ -104,18 +127,20 @@ std::string picture_names() {
 }
 
 ProceduralPicture make_picture(const std::string& name) {
-  const auto found = recipes().find(name);
-  if (found == recipes().end()) {
+  const std::optional<PictureName> parsed = parse_picture_name(name);
+  if (!parsed) {
     throw std::invalid_argument("unknown picture '" + name + "'; known: " + picture_names());
   }
-  const Recipe& recipe = found->second;
+  const Recipe& recipe = recipes().at(parsed->recipe);
   ProceduralPicture picture{recipe.width, recipe.height, recipe.channels, recipe.bits, {}};
   const double top = (1 << recipe.bits) - 1;
   for (int y = 0; y < recipe.height; ++y) {
     for (int x = 0; x < recipe.width; ++x) {
       const Texel texel = recipe.texel((x + 0.5) / recipe.width, (y + 0.5) / recipe.height);
       for (int c = 0; c < recipe.channels; ++c) {
-        const double value = std::clamp(texel.at(static_cast<std::size_t>(c)), 0.0, 1.0);
+        const auto channel = static_cast<std::size_t>(c);
+        const bool kept = parsed->kept.find("rgba"[channel]) != std::string::npos;
+        const double value = kept ? std::clamp(texel.at(channel), 0.0, 1.0) : 0.5;
         picture.codes.push_back(static_cast<std::uint16_t>(std::floor(value * top + 0.5)));
       }
     }

@@ -40,7 +40,9 @@ std::string picture_names();
 /// - "weave": a coloured cloth pattern of middle tones, so that a wrong colour space shows;
 /// - "weave16": the same in 16 bits;
 /// - "odd": "channels" in 37 x 23 texels, a size of no power of two;
-/// - "bumps", "ripples": normal maps, taken from heights.
+/// - "bumps", "ripples": normal maps, taken from heights;
+/// - "flat": the same everywhere, codes 0.2, 0.4, 0.6, 0.8 of the largest in r, g, b, a.
+/// A dot and letters of "rgba" keep those channels alone ("channels.a"), the others being code 0.5 everywhere.
 /// Smooth and periodic, so that a picture repeats without a seam. Throws std::invalid_argument for an unknown name.
 ProceduralPicture make_picture(const std::string& name);
 

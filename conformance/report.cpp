@@ -83,9 +83,9 @@ std::string figures(const CaseResult& one) {
   std::string html = "<div class=figures>" + figure("model", escape_html(one.model));
   if (one.verdict) {
     const Verdict& v = *one.verdict;
-    html += figure("error / bound", number(v.bound_ratio)) + figure("max abs", number(v.max_abs)) + figure("max rel", number(v.max_rel)) +
-            figure("p99 rel", number(v.p99_rel)) + figure("compared", std::to_string(v.compared_pixels)) +
-            figure("excluded", std::to_string(v.excluded_pixels));
+    html += figure(one.scenes.empty() ? "error / bound" : "deviation / tolerance", number(v.bound_ratio)) +
+            figure("max abs", number(v.max_abs)) + figure("max rel", number(v.max_rel)) + figure("p99 rel", number(v.p99_rel)) +
+            figure("compared", std::to_string(v.compared_pixels)) + figure("excluded", std::to_string(v.excluded_pixels));
     if (v.nonfinite_pixels > 0) {
       html += figure("NaN or Inf", std::to_string(v.nonfinite_pixels));
     }
@@ -144,17 +144,34 @@ std::string terms(const CaseResult& one) {
            std::to_string(d.x) + ", " + std::to_string(d.y) + ")</summary>" + fit_table(d) + point_table(d.terms) + light_table(d.terms) +
            "</details>";
   }
-  return html + "<details><summary>scene</summary><code>" + escape_html(one.scene_file.string()) + "</code></details>";
+  html += "<details><summary>scene</summary><code>" + escape_html(one.scene_file.string());
+  for (const ScenePicture& scene : one.scenes) {
+    html += escape_html(scene.label + ": " + scene.scene_file.string()) + "<br>";
+  }
+  return html + "</code></details>";
+}
+
+/// A case's candidate beside its golden, or a relation's scenes side by side; then how far they are apart.
+std::string pictures(const CaseResult& one) {
+  const std::string ring = one.verdict ? ring_at(*one.verdict, one.width, one.height) : "";
+  std::string html = "<div class=pictures>";
+  for (const ScenePicture& scene : one.scenes) {
+    html += picture(scene.png, escape_html(scene.label), ring);
+  }
+  if (one.scenes.empty()) {
+    html += picture(one.pictures.candidate, "candidate", ring) + picture(one.pictures.golden, "golden", ring);
+  }
+  return html + picture(one.pictures.difference, one.scenes.empty() ? "error / bound" : "difference / tolerance", ring) + "</div>";
 }
 
 std::string card(const CaseResult& one) {
   const std::string word = to_string(one.status);
   std::string html =
       "<article data-status=" + word + " data-name=\"" + escape_html(one.name) + "\" style=\"--status:var(--" + word + ")\">";
-  const std::string ring = one.verdict ? ring_at(*one.verdict, one.width, one.height) : "";
-  html += "<div class=pictures>" + picture(one.pictures.candidate, "candidate", ring) + picture(one.pictures.golden, "golden", ring) +
-          picture(one.pictures.difference, "error / bound", ring) + "</div>";
+  html += pictures(one);
   html += "<div><h2><span class=badge>" + word + "</span>" + escape_html(one.name) + "</h2>";
+  // A message about a broken law quotes it.
+  html += one.law.empty() || one.message.find(one.law) != std::string::npos ? "" : "<p class=law>" + escape_html(one.law) + "</p>";
   if (!one.message.empty()) {
     html += "<p class=message>" + escape_html(one.message) + "</p>";
   }

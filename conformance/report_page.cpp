@@ -26,7 +26,7 @@ nav input { flex: 1; min-width: 180px; }
 article { background: var(--paper); border: 1px solid var(--line); border-left: 5px solid var(--status); border-radius: 6px; margin-bottom: 12px;
   padding: 12px 16px; display: grid; grid-template-columns: auto 1fr; gap: 6px 22px; }
 article[hidden] { display: none; }
-.pictures { display: flex; gap: 8px; }
+.pictures { display: flex; flex-wrap: wrap; align-content: start; gap: 8px; max-width: 544px; }
 figure { margin: 0; }
 figure img, figure .none { width: 128px; height: 128px; background: #000; border-radius: 3px; display: block; image-rendering: pixelated; position: relative; }
 figure .none { color: #888; font-size: 12px; display: grid; place-items: center; }
@@ -35,6 +35,7 @@ figure .none { color: #888; font-size: 12px; display: grid; place-items: center;
 figcaption { font-size: 12px; color: var(--soft); text-align: center; }
 h2 { font: 600 15px/1.4 ui-monospace, "DejaVu Sans Mono", monospace; margin: 0; overflow-wrap: anywhere; }
 .badge { color: var(--status); font: 600 12px system-ui, sans-serif; text-transform: uppercase; letter-spacing: .05em; margin-right: 8px; }
+.law { margin: 4px 0; color: var(--soft); }
 .message { margin: 4px 0; overflow-wrap: anywhere; white-space: pre-wrap; }
 .figures { display: flex; flex-wrap: wrap; gap: 2px 20px; font-size: 13px; color: var(--soft); margin: 4px 0; }
 .figures b { color: var(--ink); font-weight: 600; font-variant-numeric: tabular-nums; }

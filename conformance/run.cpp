@@ -11,9 +11,11 @@
 
 #include <gtest/gtest.h>
 
+#include "conformance/case_scene.h"
 #include "conformance/glb.h"
 #include "conformance/goldens.h"
 #include "conformance/judge.h"
+#include "conformance/judge_relation.h"
 #include "conformance/paths.h"
 #include "conformance/report.h"
 #include "conformance/results.h"
@@ -125,22 +127,23 @@ class Session {
   const Hello& hello() const { return hello_; }
   void plan(std::vector<std::size_t> order) {
     total_ = order.size();
+    // Relations have no golden to prepare.
+    std::erase_if(order, [this](std::size_t index) { return index >= suite_.cases.size(); });
     prefetcher_.start(std::move(order));
   }
   std::size_t planned() const { return total_; }
 
+  /// Runs the case or relation of that index.
   const CaseResult& run_case(std::size_t index) {
-    const Case& one = suite_.cases[index];
-    const PreparedCase prepared = prefetcher_.take(index);
-    Answer answer;
-    if (prepared.problem.empty()) {
-      const fs::path output = images_ / (one.name + (hello_.encoding == Encoding::Srgb8 ? ".candidate.png" : ".candidate.exr"));
-      answer = viewer_.draw({prepared.scene_file, 0, one.width, one.height, output, one.model});
-    }
     CaseResult& result = results_[index];
-    result = judge_case(one, prepared, answer, hello_, store_, images_);
+    if (index < suite_.cases.size()) {
+      result = hold_to_golden(index);
+    } else {
+      result = judge_relation(
+          suite_.relations[index - suite_.cases.size()], [this](const Case& scene) { return draw_scene(scene); }, hello_, images_);
+    }
     if (options_.progress) {
-      options_.progress({results_.size(), total_, one.name, to_string(result.status), result.message});
+      options_.progress({results_.size(), total_, suite_.name_of(index), to_string(result.status), result.message});
     }
     return result;
   }
@@ -156,6 +159,21 @@ class Session {
   }
 
  private:
+  Answer draw(const Case& one, const fs::path& scene_file) {
+    const fs::path output = images_ / (one.name + (hello_.encoding == Encoding::Srgb8 ? ".candidate.png" : ".candidate.exr"));
+    return viewer_.draw({scene_file, 0, one.width, one.height, output, one.model});
+  }
+  CaseResult hold_to_golden(std::size_t index) {
+    const Case& one = suite_.cases[index];
+    const PreparedCase prepared = prefetcher_.take(index);
+    const Answer answer = prepared.problem.empty() ? draw(one, prepared.scene_file) : Answer{};
+    return judge_case(one, prepared, answer, hello_, store_, images_);
+  }
+  Drawing draw_scene(const Case& scene) {
+    const fs::path file = write_scene(scene, cache_ / "scenes");
+    return {file, draw(scene, file)};
+  }
+
   const RunOptions& options_;
   Suite suite_;
   fs::path cache_;
@@ -178,6 +196,9 @@ class CaseTest : public testing::Test {
     if (result.verdict) {
       RecordProperty("bound_ratio", nlohmann::json(result.verdict->bound_ratio).dump());
       RecordProperty("max_rel", nlohmann::json(result.verdict->max_rel).dump());
+    }
+    if (!result.law.empty()) {
+      RecordProperty("law", result.law);
     }
     if (!result.identified.empty()) {
       RecordProperty("identified", result.identified);
@@ -244,7 +265,7 @@ void run_tests(Session& session, const RunOptions& options, const std::vector<st
   std::map<std::string, std::size_t> index_of;
   const std::string source = "conformance/suites/" + session.suite().name + ".json";
   for (const std::size_t index : chosen) {
-    const std::string& name = session.suite().cases[index].name;
+    const std::string& name = session.suite().name_of(index);
     index_of[name] = index;
     testing::RegisterTest(session.suite().name.c_str(), name.c_str(), nullptr, nullptr, source.c_str(), 1,
                           [&session, index]() -> testing::Test* { return new CaseTest(session, index); });
@@ -277,8 +298,8 @@ RunResult run(const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Suite suite = load_suite(options.suite);
   std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < suite.cases.size(); ++i) {
-    if (matches_filter(options.filter, suite.name, suite.cases[i].name)) {
+  for (std::size_t i = 0; i < suite.size(); ++i) {
+    if (matches_filter(options.filter, suite.name, suite.name_of(i))) {
       chosen.push_back(i);
     }
   }

@@ -114,14 +114,18 @@ SurfacePoint ring_point(double s, double t) {
   return {turned(position), turned(normal), turned(along)};
 }
 
+SurfacePoint square_point(double s, double t) {
+  return {{2 * s - 1, 1 - 2 * t, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}};
+}
+
 }  // namespace
 
 bool is_shape(const std::string& name) {
-  return name == "sphere" || name == "cloth" || name == "ring";
+  return name == "sphere" || name == "cloth" || name == "ring" || name == "square";
 }
 
 std::string shape_names() {
-  return "sphere, cloth, ring";
+  return "sphere, cloth, ring, square";
 }
 
 Shape make_shape(const std::string& name) {
@@ -133,6 +137,9 @@ Shape make_shape(const std::string& name) {
   }
   if (name == "ring") {
     return tessellate(96, 40, {4.0, 1.0}, ring_point);
+  }
+  if (name == "square") {
+    return tessellate(1, 1, {1.0, 1.0}, square_point);
   }
   throw std::invalid_argument("unknown shape '" + name + "'; known: " + shape_names());
 }

@@ -19,7 +19,8 @@ struct Shape {
   std::vector<std::uint16_t> indices;
 };
 
-/// "sphere" (radius 1, 96 x 48), "cloth" (a rolling patch that faces +Z) or "ring" (a torus, turned toward the viewer).
+/// "sphere" (radius 1, 96 x 48), "cloth" (a rolling patch that faces +Z), "ring" (a torus, turned toward the viewer) or "square" (flat,
+/// from -1 to 1 in x and y, faces +Z).
 bool is_shape(const std::string& name);
 /// The names, for messages.
 std::string shape_names();

@@ -21,22 +21,6 @@ bool is_case_name(const std::string& name) {
          name.find("..") == std::string::npos;
 }
 
-Case make_case(SweepPoint point, const std::string& file, const std::string& element) {
-  if (!is_case_name(point.name)) {
-    throw SuiteError(file, element, "case name '" + point.name + "' may hold only a-z, 0-9, _ and single dots inside");
-  }
-  check_description(point.description, file, element + " case '" + point.name + "'");
-  Case made;
-  made.name = std::move(point.name);
-  const json model = point.description.value("model", json::object());
-  made.model.visibility = parse_visibility(model.value("visibility", "charlie"));
-  made.model.scaling = parse_albedo_scaling(model.value("albedo_scaling", "full"));
-  made.width = point.description["size"][0].get<int>();
-  made.height = point.description["size"][1].get<int>();
-  made.description = std::move(point.description);
-  return made;
-}
-
 /// Whether the glob (? one character, * any run of them) matches the whole text.
 bool glob_matches(std::string_view glob, std::string_view text) {
   std::size_t g = 0;
@@ -72,26 +56,70 @@ bool any_matches(std::string_view patterns, const std::string& suite, const std:
   return false;
 }
 
-}  // namespace
-
-Suite parse_suite(std::string_view text, const std::string& file) {
+/// The JSON of a file with groups and nothing but the known members.
+ordered_json parse_file(std::string_view text, const std::string& file, const std::vector<std::string>& known) {
   ordered_json root;
   try {
     root = ordered_json::parse(text);
   } catch (const json::exception& error) {
     throw SuiteError(file, "the file", std::string("is not JSON: ") + error.what());
   }
-  check_keys(json(root), {"suite", "description", "defaults", "groups"}, file, "the file");
-  for (const char* key : {"suite", "groups"}) {
-    if (!root.contains(key)) {
-      throw SuiteError(file, "the file", std::string("needs '") + key + "'");
-    }
-  }
-  if (!root["suite"].is_string() || !is_case_name(root["suite"].get<std::string>())) {
-    throw SuiteError(file, "suite", "must be a name");
+  check_keys(json(root), known, file, "the file");
+  if (!root.contains("groups")) {
+    throw SuiteError(file, "the file", "needs 'groups'");
   }
   if (!root["groups"].is_array()) {
     throw SuiteError(file, "groups", "must be an array");
+  }
+  return root;
+}
+
+void add_groups(const ordered_json& groups, const json& defaults, const std::string& file, std::set<std::string>& names, Suite& suite) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::string element = "groups[" + std::to_string(g) + "]";
+    for (SweepPoint& point : expand_group(groups[g], defaults, file, element)) {
+      if (!names.insert(point.name).second) {
+        throw SuiteError(file, element, "two cases are named '" + point.name + "'");
+      }
+      if (point.description.contains("relation")) {
+        suite.relations.push_back(make_relation(std::move(point), file, element));
+      } else {
+        suite.cases.push_back(make_case(std::move(point), file, element));
+      }
+    }
+  }
+}
+
+/// What `list` shows of a case, or of the first scene of a relation.
+CaseInfo info_of(const Case& one, const std::string& name, const std::string& law) {
+  return {name, to_string(one.model.visibility), to_string(one.model.scaling), one.width, one.height, law};
+}
+
+}  // namespace
+
+Case make_case(SweepPoint point, const std::string& file, const std::string& element) {
+  if (!is_case_name(point.name)) {
+    throw SuiteError(file, element, "case name '" + point.name + "' may hold only a-z, 0-9, _ and single dots inside");
+  }
+  check_description(point.description, file, element + " case '" + point.name + "'");
+  Case made;
+  made.name = std::move(point.name);
+  const json model = point.description.value("model", json::object());
+  made.model.visibility = parse_visibility(model.value("visibility", "charlie"));
+  made.model.scaling = parse_albedo_scaling(model.value("albedo_scaling", "full"));
+  made.width = point.description["size"][0].get<int>();
+  made.height = point.description["size"][1].get<int>();
+  made.description = std::move(point.description);
+  return made;
+}
+
+Suite parse_suite(std::string_view text, const std::string& file, const std::vector<SuitePart>& parts) {
+  const ordered_json root = parse_file(text, file, {"suite", "description", "defaults", "groups"});
+  if (!root.contains("suite")) {
+    throw SuiteError(file, "the file", "needs 'suite'");
+  }
+  if (!root["suite"].is_string() || !is_case_name(root["suite"].get<std::string>())) {
+    throw SuiteError(file, "suite", "must be a name");
   }
   Suite suite;
   suite.name = root["suite"].get<std::string>();
@@ -103,24 +131,22 @@ Suite parse_suite(std::string_view text, const std::string& file) {
     throw SuiteError(file, "defaults", "must be an object");
   }
   std::set<std::string> names;
-  for (std::size_t g = 0; g < root["groups"].size(); ++g) {
-    const std::string element = "groups[" + std::to_string(g) + "]";
-    for (SweepPoint& point : expand_group(root["groups"][g], defaults, file, element)) {
-      Case made = make_case(std::move(point), file, element);
-      if (!names.insert(made.name).second) {
-        throw SuiteError(file, element, "two cases are named '" + made.name + "'");
-      }
-      suite.cases.push_back(std::move(made));
-    }
+  add_groups(root["groups"], defaults, file, names, suite);
+  for (const SuitePart& part : parts) {
+    add_groups(parse_file(part.text, part.file, {"groups"})["groups"], defaults, part.file, names, suite);
   }
   return suite;
 }
 
 Suite load_suite(const std::string& name) {
+  std::vector<SuitePart> files;
   for (const EmbeddedSuite& suite : embedded_suites()) {
     if (suite.name == name) {
-      return parse_suite(suite.text, "suite " + name);
+      files.push_back({suite.text, "suites/" + std::string(suite.file)});
     }
+  }
+  if (!files.empty()) {
+    return parse_suite(files.front().text, files.front().file, {files.begin() + 1, files.end()});
   }
   std::string known;
   for (const std::string& suite : suite_names()) {
@@ -139,7 +165,9 @@ bool matches_filter(const std::string& filter, const std::string& suite, const s
 std::vector<std::string> suite_names() {
   std::vector<std::string> names;
   for (const EmbeddedSuite& suite : embedded_suites()) {
-    names.emplace_back(suite.name);
+    if (names.empty() || names.back() != suite.name) {
+      names.emplace_back(suite.name);
+    }
   }
   return names;
 }
@@ -147,11 +175,14 @@ std::vector<std::string> suite_names() {
 std::vector<CaseInfo> list(const std::string& suite_name, const std::string& filter) {
   const Suite suite = load_suite(suite_name);
   std::vector<CaseInfo> cases;
-  for (const Case& one : suite.cases) {
-    if (!matches_filter(filter, suite.name, one.name)) {
+  for (std::size_t i = 0; i < suite.size(); ++i) {
+    const std::string& name = suite.name_of(i);
+    if (!matches_filter(filter, suite.name, name)) {
       continue;
     }
-    cases.push_back({one.name, to_string(one.model.visibility), to_string(one.model.scaling), one.width, one.height});
+    const bool is_case = i < suite.cases.size();
+    const Relation* relation = is_case ? nullptr : &suite.relations[i - suite.cases.size()];
+    cases.push_back(is_case ? info_of(suite.cases[i], name, "") : info_of(relation->scenes.front(), name, relation->law));
   }
   return cases;
 }

@@ -88,6 +88,23 @@ TEST(Suite, RefusalsNameFileElementAndRule) {
   EXPECT_THROW(parse_suite("{", "small.json"), SuiteError);
 }
 
+TEST(Suite, FurtherFilesAddGroupsUnderTheSameDefaults) {
+  const Suite suite = parse_suite(suite_text(R"({"name": "a"})"), "small.json", {{R"({"groups": [{"name": "b"}]})", "small.more.json"}});
+  ASSERT_EQ(suite.cases.size(), 2U);
+  EXPECT_EQ(suite.cases[1].name, "b");
+  EXPECT_EQ(suite.cases[1].description, suite.cases[0].description);
+  const auto refused = [](const std::string& part) {
+    try {
+      parse_suite(suite_text(R"({"name": "a"})"), "small.json", {{part, "small.more.json"}});
+    } catch (const SuiteError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused(R"({"groups": [{"name": "a"}]})"), "small.more.json: groups[0]: two cases are named 'a'");
+  EXPECT_EQ(refused(R"({"suite": "small", "groups": []})"), "small.more.json: the file: unknown key 'suite'");
+}
+
 TEST(Suite, FilterIsThatOfGoogleTest) {
   EXPECT_TRUE(matches_filter("*", "core", "sheen.white"));
   EXPECT_TRUE(matches_filter("sheen.*", "core", "sheen.white"));
@@ -130,7 +147,7 @@ TEST(CoreSuite, UnknownSuiteNamesTheOnesThereAre) {
     load_suite("cor");
     FAIL() << "must throw";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "unknown suite 'cor'; known: core");
+    EXPECT_STREQ(error.what(), "unknown suite 'cor'; known: core, semantics");
   }
 }
 

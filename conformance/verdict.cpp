@@ -6,27 +6,13 @@
 #include <limits>
 #include <vector>
 
+#include "conformance/code_rounding.h"
+#include "conformance/nearest_rank.h"
+
 namespace sheen::conformance {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// IEC 61966-2-1: linear light from an sRGB value in [0, 1].
-double srgb_decode(double v) {
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-double srgb_encode(double v) {
-  return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
-
-/// How far a linear value may lie from that of the nearest of 256 sRGB codes: half a code to either side, the wider of the two.
-double half_code(double linear) {
-  const double code = std::round(255.0 * srgb_encode(std::clamp(linear, 0.0, 1.0)));
-  const double here = srgb_decode(code / 255.0);
-  const double below = here - srgb_decode(std::max(code - 0.5, 0.0) / 255.0);
-  const double above = srgb_decode(std::min(code + 0.5, 255.0) / 255.0) - here;
-  return std::max(below, above);
-}
 
 /// Channel indices, found once.
 struct Channels {
@@ -100,21 +86,15 @@ class Judge {
     }
     if (rules_.candidate_is_srgb8) {
       s.reference = std::min(s.reference, 1.0);
-      s.bound += c < 3 ? color_rounding(x, y, value) : 0.5 / 255.0;
+      s.bound += c < 3 ? color_rounding(value, alpha(x, y)) : alpha_rounding;
     }
     s.error = std::abs(value - s.reference);
     return s;
   }
 
  private:
-  /// PNG colours are not premultiplied: the code's half step counts times alpha, and alpha's own half step times the colour.
-  double color_rounding(int x, int y, double value) const {
-    const double alpha = channels_.candidate[3] >= 0 ? static_cast<double>(candidate_.at(x, y, channels_.candidate[3])) : 1.0;
-    if (alpha <= 0) {
-      return 0;
-    }
-    const double straight = value / alpha;
-    return half_code(straight) * alpha + (alpha < 1 ? straight * 0.5 / 255.0 : 0.0);
+  double alpha(int x, int y) const {
+    return channels_.candidate[3] >= 0 ? static_cast<double>(candidate_.at(x, y, channels_.candidate[3])) : 1.0;
   }
 
   const image::Image& candidate_;
@@ -122,17 +102,6 @@ class Judge {
   VerdictRules rules_;
   Channels channels_;
 };
-
-/// Nearest-rank 99th percentile.
-double percentile_99(std::vector<double>& values) {
-  if (values.empty()) {
-    return 0;
-  }
-  const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(values.size())));
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 std::string size_of(const image::Image& image) {
   return std::to_string(image.width) + " x " + std::to_string(image.height);
@@ -191,7 +160,7 @@ void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
       }
     }
   }
-  verdict.p99_rel = percentile_99(relative);
+  verdict.p99_rel = nearest_rank(relative, 0.99);
 }
 
 void decide(const VerdictRules& rules, Verdict& verdict) {

@@ -56,6 +56,10 @@ bool Hello::takes_settings() const {
   return std::find(capabilities.begin(), capabilities.end(), "settings") != capabilities.end();
 }
 
+bool Hello::maps_tones() const {
+  return std::find(capabilities.begin(), capabilities.end(), "tone-mapped") != capabilities.end();
+}
+
 Hello parse_hello(const std::string& line) {
   const json root = json::parse(line, nullptr, false);
   if (root.is_discarded() || !root.is_object()) {

@@ -27,6 +27,8 @@ struct Hello {
 
   /// Whether it takes the form of the model from a request's `settings`.
   bool takes_settings() const;
+  /// Whether it says that its pictures went through a tone mapping.
+  bool maps_tones() const;
 };
 
 /// One picture to ask for.

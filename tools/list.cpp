@@ -27,6 +27,9 @@ int list(const ListOptions& options) {
                                {"albedo_scaling", info.albedo_scaling},
                                {"width", info.width},
                                {"height", info.height}});
+    if (!info.law.empty()) {
+      report["cases"].back()["law"] = info.law;
+    }
   }
   std::cout << conformance::json_text(report, 2) << '\n';
   return done;

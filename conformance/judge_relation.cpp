@@ -1,0 +1,74 @@
+#include "conformance/judge_relation.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "conformance/relate.h"
+#include "image/io.h"
+
+namespace sheen::conformance {
+namespace {
+
+/// Draws the scenes and reads the pictures. False, with status and message set, when one is missing.
+bool draw_scenes(const Relation& relation, const std::function<Drawing(const Case&)>& draw, const std::filesystem::path& images,
+                 CaseResult& result, std::vector<image::Image>& pictures) {
+  for (std::size_t i = 0; i < relation.scenes.size(); ++i) {
+    const Drawing drawing = draw(relation.scenes[i]);
+    result.seconds += drawing.answer.seconds;
+    result.scenes.push_back({relation.labels[i], drawing.scene_file, {}});
+    if (drawing.answer.status != AnswerStatus::Rendered) {
+      result.status = status_of(drawing.answer.status);
+      result.message = "'" + relation.labels[i] + "': " + (drawing.answer.message.empty() ? "the viewer says so" : drawing.answer.message);
+      return false;
+    }
+    pictures.push_back(image::read(drawing.answer.image));
+    result.scenes.back().png = keep_candidate(images, relation.scenes[i].name, drawing.answer.image, pictures.back());
+  }
+  return true;
+}
+
+void judge_pictures(const Relation& relation, const std::vector<image::Image>& pictures, const Hello& hello, CaseResult& result) {
+  RelationRules rules;
+  rules.srgb8 = hello.encoding == Encoding::Srgb8;
+  rules.tone_mapped = hello.maps_tones();
+  rules.ours = hello.name == "sheen-cts";
+  rules.subpixel_bits = hello.subpixel_bits;
+  result.verdict = relate(relation, pictures, rules);
+  result.status = result.verdict->status;
+  result.message = result.verdict->message;
+  result.pictures.difference = image::encode_png(
+      paint_ratios(relation_map(relation, pictures, rules), relation.scenes.front().width, relation.scenes.front().height));
+  if (result.status != Status::Fail) {
+    return;
+  }
+  result.message += "; broken: " + result.law;
+  if (!relation.excuse.empty() && !hello.takes_settings() && result.verdict->nonfinite_pixels == 0) {
+    result.status = Status::Approximation;
+    result.message += "; allowed, for " + relation.excuse;
+  }
+}
+
+}  // namespace
+
+CaseResult judge_relation(const Relation& relation, const std::function<Drawing(const Case&)>& draw, const Hello& hello,
+                          const std::filesystem::path& images) {
+  const Case& first = relation.scenes.front();
+  CaseResult result;
+  result.name = relation.name;
+  result.law = relation.law + " (" + relation.source + ")";
+  result.model = to_string(first.model.visibility) + " " + to_string(first.model.scaling);
+  result.width = first.width;
+  result.height = first.height;
+  try {
+    std::vector<image::Image> pictures;
+    if (draw_scenes(relation, draw, images, result, pictures)) {
+      judge_pictures(relation, pictures, hello, result);
+    }
+  } catch (const std::exception& error) {
+    result.status = Status::Invalid;
+    result.message = error.what();
+  }
+  return result;
+}
+
+}  // namespace sheen::conformance
