@@ -54,7 +54,7 @@ class EnvironmentEstimate {
   Estimate value() const;
 
  private:
-  static constexpr std::uint32_t first_points = 8;
+  static constexpr std::uint32_t first_points = 4;
   void add(const Surface<double>& surface, CurveCache& curves, std::uint32_t end);
 
   const ImageLighting* lighting_;

@@ -206,6 +206,26 @@ TEST(EnvironmentShade, TheStandardErrorHoldsTheTruth) {
   EXPECT_GT(spread / all, 0.5) << "the standard error is not far too large either";
 }
 
+// Every orientation, grazing and from behind.
+TEST(EnvironmentShade, IsFiniteEverywhere) {
+  const scene::Environment environment = sky_with_sun();
+  const EnvironmentLight light(environment);
+  const albedo::Interpolant interpolant(albedo::Visibility::Charlie);
+  const DirectionPool pool(light, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec3 n = glm::normalize(glm::dvec3(std::sin(i * 1.7), std::cos(i * 2.3), std::sin(i * 0.9 + 1.0)));
+    const glm::dvec3 t = glm::normalize(glm::cross(n, glm::dvec3(0.6, 0.7, 0.4)));
+    const double mu = 0.3 * std::sin(0.37 * i) * std::sin(0.11 * i);
+    const glm::dvec3 v = mu * n + std::sqrt(1.0 - mu * mu) * t;
+    Surface<double> surface = cloth_under_lacquer(0.5);
+    surface.normal = surface.coat_normal = {n.x, n.y, n.z};
+    surface.view = {v.x, v.y, v.z};
+    const Estimate e = shade_environment(surface, {i % 3 != 0, i % 2 != 0}, {lighting_with(interpolant), &light, &pool}, {1.0, 2000, 1},
+                                         static_cast<std::uint64_t>(i));
+    ASSERT_TRUE(e.mean.g > 0.0 && std::isfinite(e.mean.g) && std::isfinite(e.standard_error.g)) << i;
+  }
+}
+
 TEST(EnvironmentShade, ASeedGivesOneResult) {
   const scene::Environment environment = sky_with_sun();
   const EnvironmentLight light(environment);

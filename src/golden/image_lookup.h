@@ -55,7 +55,22 @@ struct Arrived {
   Real density;  ///< of ImageLight::sample, 1/sr
 };
 
-/// What arrives and how densely it is drawn, from the directions at a place.
+/// Whether the image may light any of the directions at a place.
+template <class Real>
+bool lights(const ImageTexels& image, const ImagePlace<Real>& place) {
+  bool any = false;
+  for (std::size_t lane = 0; lane < ImagePlace<Real>::lanes; ++lane) {
+    const bool rows = place.row[lane] >= image.first_row - 1 && place.row[lane] <= image.last_row;
+    const bool columns = place.column[lane] >= image.first_column - 1 && place.column[lane] <= image.last_column;
+    // Across the seam the last column lies left of the first.
+    const bool seam =
+        place.column[lane] < 0 ? image.last_column == image.width - 1 : place.column[lane] >= image.width - 1 && image.first_column == 0;
+    any = any || (rows && (columns || seam));
+  }
+  return any;
+}
+
+/// What arrives and how densely it is drawn, from the directions at a place; not of an image without light.
 template <class Real>
 Arrived<Real> look_up(const ImageTexels& image, const ImagePlace<Real>& place) {
   using Lanes = number::Lanes<Real>;
@@ -68,10 +83,6 @@ Arrived<Real> look_up(const ImageTexels& image, const ImagePlace<Real>& place) {
     const int row = static_cast<int>(place.row[lane]);
     const int top = row > 0 ? row : 0;
     const int bottom = row + 1 < image.height ? row + 1 : image.height - 1;
-    if (bottom < image.first_row || top > image.last_row ||
-        ((left < image.first_column || left > image.last_column) && (right < image.first_column || right > image.last_column))) {
-      continue;
-    }
     const auto texel = [&](int i, int j) {
       return image.rgbw + 4 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(i));
     };

@@ -176,9 +176,12 @@ class ImageSum {
       const Vec3<Real> d = direction(i);
       const ImagePlace<Real> place(task_.soft, d);
       const Real q = sampler_.weighted_density(d);
-      const Arrived<Real> soft = look_up(task_.soft, place);
-      brdf::Rgb<Real> sum = soft.radiance * (Real(1) / max(soft.density * soft_weight + q, Real(1e-300)));
-      if (task_.bright.rgbw != nullptr) {
+      brdf::Rgb<Real> sum{Real(0), Real(0), Real(0)};
+      if (lights(task_.soft, place)) {
+        const Arrived<Real> soft = look_up(task_.soft, place);
+        sum = soft.radiance * (Real(1) / max(soft.density * soft_weight + q, Real(1e-300)));
+      }
+      if (lights(task_.bright, place)) {
         const Arrived<Real> bright = look_up(task_.bright, place);
         const Real p = bright.density * bright_weight;
         sum = sum + bright.radiance * (q / max(p * p + q * q, Real(1e-300)));

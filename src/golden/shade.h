@@ -177,6 +177,7 @@ class SheenLayer {
 template <class Real, class Listener>
 Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& lighting, Listener&& listener) {
   using brdf::max;
+  using brdf::min;
   using brdf::select;
   using Color = brdf::Rgb<Real>;
   const Color zero{Real(0), Real(0), Real(0)};
@@ -201,7 +202,7 @@ Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& 
     const auto lit = cosine > Real(0);
     LightPart<Real> part{cosine, Real(0), Real(0), Real(0), Real(0), Real(1), Real(0), zero, zero, zero};
 
-    const Real n_dot_l = max(cosine, Real(0));
+    const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
     const HalfAngles<Real> half(lobe, light.direction);
     part.n_dot_h = half.n_dot_h;
     const Color base =
@@ -225,7 +226,7 @@ Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& 
     if (layers.clearcoat) {
       const Real coat_cosine = dot(surface.coat_normal, light.direction);
       const auto coat_lit = coat_cosine > Real(0);
-      const Real nc_dot_l = max(coat_cosine, Real(0));
+      const Real nc_dot_l = min(max(coat_cosine, Real(0)), Real(1));
       const HalfAngles<Real> coat_half(coat, light.direction);
       part.coat_lobe = brdf::clearcoat_lobe(surface.coat_alpha, nc_dot_l, coat.n_dot_v, coat_half.n_dot_h, coat_half.sin2_theta_h) *
                        Real(factors.coat_lobe);
