@@ -38,6 +38,15 @@ TEST(ImageLight, LooksUpWhatTheEnvironmentSays) {
   }
 }
 
+TEST(ImageLight, SeesThePoles) {
+  const scene::Environment e = rough_image(8, 4);
+  const ImageLight light(e.width, e.height, e.texels, e.rotation);
+  for (const double y : {-1.0, 1.0}) {
+    const Arrived<double> arrived = look_up(light.texels(), ImagePlace<double>(light.texels(), {0.0, y, 0.0}));
+    EXPECT_NEAR(arrived.radiance.r, e.radiance({0.0, y, 0.0}).x, 1e-9);
+  }
+}
+
 // Shares of 12 x 24 cells, three to a texel's half: poles and seam included.
 TEST(ImageLight, DrawsInProportionToItsDensity) {
   const scene::Environment e = rough_image(8, 4);

@@ -30,13 +30,15 @@ struct ImagePlace {
   ImagePlace(const ImageTexels& image, const Vec3<Real>& d) {
     using brdf::max;
     using brdf::min;
+    using brdf::select;
     using brdf::sqrt;
     using std::acos;
     using std::atan2;
     using std::floor;
     using Lanes = number::Lanes<Real>;
-    // As scene::Environment::coordinates and radiance.
-    const Real turns = atan2(d.z, d.x) * Real(0.5 / brdf::pi) + Real(0.5 + image.turns);
+    // As scene::Environment::coordinates and radiance. At a pole, where a batch's atan2 is NaN, any azimuth serves.
+    const Real across2 = d.x * d.x + d.z * d.z;
+    const Real turns = atan2(d.z, select(across2 > Real(0), d.x, Real(1))) * Real(0.5 / brdf::pi) + Real(0.5 + image.turns);
     const Real x = (turns - floor(turns)) * Real(image.width) - Real(0.5);
     const Real y = acos(min(max(d.y, Real(-1)), Real(1))) * Real(image.height / brdf::pi) - Real(0.5);
     const Real left = floor(x);
@@ -45,7 +47,7 @@ struct ImagePlace {
     Lanes::store(row, top);
     Lanes::store(across, x - left);
     Lanes::store(down, y - top);
-    inverse_sine = Real(1) / sqrt(max(d.x * d.x + d.z * d.z, Real(1e-300)));
+    inverse_sine = Real(1) / sqrt(max(across2, Real(1e-300)));
   }
 };
 
