@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "golden/sampling_goal.h"
 #include "tools/errors.h"
 #include "tools/lut_grid.h"
 #include "tools/options.h"
@@ -103,11 +104,17 @@ void add_scene(CLI::App& app, SceneOptions& options) {
 
 /// How far an image that lights is sampled.
 void add_sampling(CLI::App& app, GoldenOptions& options) {
-  app.add_option("--error", options.error, "Stop sampling an image at this relative standard error (0.01)")
+  app.add_option(
+         "--error", options.error,
+         "Draw directions toward an image until 99 % of the covered pixels have a relative standard error, in every channel, below this "
+         "(0.01)")
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("REL");
-  app.add_option("--samples", options.samples, "Directions a pixel; with --error: at most")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 30))
+  app.add_option(
+         "--samples", options.samples,
+         "At most so many directions for each surface that a pixel shows, and no fewer than half of them unless --error is met first "
+         "(1048576)")
+      ->check(CLI::Range(std::int64_t{golden::least_samples}, std::int64_t{1} << 30))
       ->type_name("INT");
 }
 

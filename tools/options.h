@@ -57,8 +57,8 @@ struct RenderOptions : SceneOptions {
 
 struct GoldenOptions : SceneOptions {
   std::filesystem::path output;
-  std::optional<double> error;          ///< relative standard error at which sampling of an image stops
-  std::optional<std::int64_t> samples;  ///< directions a pixel at most; alone: without regard to the error
+  std::optional<double> error;          ///< relative standard error that 99 % of the pixels meet when sampling of an image stops
+  std::optional<std::int64_t> samples;  ///< directions at most for each surface of a pixel; alone: without regard to the error
 };
 
 struct Tolerance {

@@ -10,10 +10,10 @@
 namespace sheen::albedo {
 namespace {
 
-constexpr int nodes = 12;                  // a side of a patch
-constexpr double patch_x = -branch_x / 2;  // so that the branch point is a border
+constexpr int nodes = Curve::nodes;  // a side of a patch
+constexpr double patch_x = Curve::patch_x;
 constexpr double patch_y = 0.7;
-constexpr int patches_x = 16;            // down to mu = 5e-5
+constexpr int patches_x = Curve::patches;
 constexpr int patches_y = 18;            // down to r = 3.4e-6, where E is negligible for every mu >= min_n_dot_v
 constexpr double accepted_error = 3e-7;  // of E, relative or absolute, whichever is less
 
@@ -56,6 +56,36 @@ const Chebyshev& chebyshev() {
   return c;
 }
 
+// From values at the nodes to the coefficients of the powers of t: the Chebyshev coefficients by their discrete orthogonality, then
+// T_k+1 = 2 t T_k - T_k-1. At degree 11 powers lose four digits of sixteen.
+const std::array<Nodes, nodes>& powers_from_values() {
+  static const std::array<Nodes, nodes> matrix = [] {
+    std::array<Nodes, nodes> m{};
+    Nodes before{};  // the powers in T_k-1 and T_k
+    Nodes current{};
+    current[0] = 1;
+    for (int k = 0; k < nodes; ++k) {
+      for (int i = 0; i < nodes; ++i) {
+        const double share = (k == 0 ? 1.0 : 2.0) / nodes * std::cos(brdf::pi * k * (i + 0.5) / nodes);
+        for (int power = 0; power < nodes; ++power) {
+          m[power][i] += current[power] * share;
+        }
+      }
+      Nodes next{};
+      for (int power = 0; power + 1 < nodes; ++power) {
+        next[power + 1] = (k == 0 ? 1.0 : 2.0) * current[power];
+      }
+      for (int power = 0; power < nodes; ++power) {
+        next[power] -= before[power];
+      }
+      before = current;
+      current = next;
+    }
+    return m;
+  }();
+  return matrix;
+}
+
 struct Patch {
   std::once_flag made;
   bool usable = false;
@@ -73,6 +103,18 @@ struct Patch {
     }
     return value;
   }
+
+  // The values at the nodes of x for one y.
+  Nodes row(double t_y) const {
+    const Nodes sy = chebyshev().shares(t_y);
+    Nodes values{};
+    for (int j = 0; j < nodes; ++j) {
+      for (int i = 0; i < nodes; ++i) {
+        values[i] += sy[j] * h[j][i];
+      }
+    }
+    return values;
+  }
 };
 
 }  // namespace
@@ -86,6 +128,12 @@ struct Interpolant::Impl {
   double direct(double x, double y) const {
     const double t = std::exp(std::min(x, 0.0)), r = std::exp(std::min(y, 0.0));
     return log_directional_albedo(visibility, cosine_of(t), r) + log_peak_drop(t, r);
+  }
+
+  const Patch& patch(int ix, int iy) {
+    Patch& patch = patches[iy][ix];
+    std::call_once(patch.made, [&] { make(patch, ix, iy); });
+    return patch;
   }
 
   void make(Patch& patch, int ix, int iy) const {
@@ -126,12 +174,40 @@ double Interpolant::operator()(double n_dot_v, double sheen_roughness) const {
   }
   const double u = std::log(t) / -patch_x, v = std::log(r) / -patch_y;  // in patches
   const int ix = std::min(static_cast<int>(u), patches_x - 1), iy = std::min(static_cast<int>(v), patches_y - 1);
-  Patch& patch = impl_->patches[iy][ix];
-  std::call_once(patch.made, [&] { impl_->make(patch, ix, iy); });
+  const Patch& patch = impl_->patch(ix, iy);
   if (!patch.usable) {
     return directional_albedo(impl_->visibility, cosine_of(t), r);
   }
   return std::exp(patch.at(1 - 2 * (u - ix), 1 - 2 * (v - iy)) - drop);
+}
+
+Curve Interpolant::at_roughness(double sheen_roughness) const {
+  const double r = std::min(sheen_roughness, 1.0);
+  Curve curve(*this, r);
+  if (!(r > 0)) {
+    return curve;
+  }
+  const double v = std::log(r) / -patch_y;
+  const int iy = std::min(static_cast<int>(v), patches_y - 1);
+  for (int ix = 0; ix < patches_x; ++ix) {
+    // The least T of the patch: where the drop is least.
+    if (!(log_peak_drop(std::exp(-patch_x * (ix + 1)), r) < negligible_drop)) {
+      continue;
+    }
+    const Patch& patch = impl_->patch(ix, iy);
+    curve.usable_ = curve.usable_ && patch.usable;
+    const Nodes values = patch.row(1 - 2 * (v - iy));
+    for (int power = 0; power < nodes; ++power) {
+      for (int i = 0; i < nodes; ++i) {
+        curve.powers_[ix][power] += powers_from_values()[power][i] * values[i];
+      }
+    }
+  }
+  return curve;
+}
+
+double Curve::slowly(double n_dot_v) const {
+  return (*interpolant_)(n_dot_v, sheen_roughness_);
 }
 
 }  // namespace sheen::albedo

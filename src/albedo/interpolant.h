@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "albedo/curve.h"
 #include "albedo/sheen_model.h"
 
 namespace sheen::albedo {
@@ -18,6 +19,9 @@ class Interpolant {
 
   /// E; arguments as for directional_albedo. Cosines below min_n_dot_v count as min_n_dot_v.
   double operator()(double n_dot_v, double sheen_roughness) const;
+
+  /// The same at one roughness, for any number type. This must outlive it.
+  Curve at_roughness(double sheen_roughness) const;
 
  private:
   struct Impl;

@@ -48,5 +48,19 @@ TEST(Interpolant, GivesEveryThreadTheSame) {
   EXPECT_EQ(parallel, serial);
 }
 
+TEST(Curve, IsTheInterpolantAtOneRoughness) {
+  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+    const Interpolant interpolant(visibility);
+    for (double r : {0.0, 0.002, 0.05, 0.1, 0.37, 0.4966, 0.8, 1.0}) {
+      const Curve curve = interpolant.at_roughness(r);
+      for (int i = 0; i <= 300; ++i) {
+        const double mu = i % 2 == 0 ? i / 300.0 : std::exp(-0.03 * i);
+        const double e = interpolant(mu, r);
+        EXPECT_NEAR(curve(mu), e, 1e-9 * std::max(e, 1.0)) << "n_dot_v " << mu << " sheen_roughness " << r;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheen::albedo

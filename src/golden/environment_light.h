@@ -1,29 +1,30 @@
 #pragma once
 
-#include <vector>
-
 #include <glm/vec3.hpp>
 
+#include "golden/image_light.h"
 #include "scene/environment.h"
 
 namespace sheen::golden {
 
-/// An image that lights: its directions drawn in proportion to what they send, to within the filter between texels.
+/// An image that lights, split into a sum of two: what exceeds a threshold (the sun, lamps), and the rest. A surface turned away from the
+/// sun then spends no direction on it, and no direction drawn elsewhere meets it by a rare chance that would make the mean jump.
 class EnvironmentLight {
  public:
   /// The argument must outlive this and have an image.
   explicit EnvironmentLight(const scene::Environment& environment);
 
   glm::dvec3 radiance(const glm::dvec3& direction) const { return environment_.radiance(direction); }
-  /// A unit direction for (u, v) in [0, 1)^2.
-  glm::dvec3 sample(double u, double v) const;
-  /// Density of sample() over solid angle, 1/sr; > 0 wherever radiance is.
-  double pdf(const glm::dvec3& direction) const;
+  const ImageLight& soft() const { return soft_; }
+  const ImageLight& bright() const { return bright_; }
+  /// Whether all that is bright lies below the horizon of a unit normal.
+  bool bright_below(const Vec3<double>& normal) const;
 
  private:
   const scene::Environment& environment_;
-  std::vector<double> row_cdf_;     // height + 1
-  std::vector<double> column_cdf_;  // height rows of width + 1, each normalised
+  ImageLight soft_, bright_;
+  Vec3<double> bright_axis_{0, 1, 0};  // of a cone that holds all that is bright
+  double bright_sine_ = 1.0;           // of its half angle; 1: no such cone below a hemisphere
 };
 
 }  // namespace sheen::golden

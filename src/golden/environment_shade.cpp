@@ -1,56 +1,15 @@
 #include "golden/environment_shade.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
-#include "golden/lobe_sampling.h"
+#include "golden/image_sum.h"
 #include "golden/uniform_light.h"
 
 namespace sheen::golden {
 namespace {
 
 using Color = brdf::Rgb<double>;
-
-constexpr std::size_t replicas = 32;
-constexpr std::uint32_t first_points = 4;  // of each strategy and replica; then as many again each time
-
-// splitmix64 (Steele, Lea and Flood 2014).
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15u;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-  return x ^ (x >> 31);
-}
-
-// The first two dimensions of Sobol's sequence in 32 bits (Sobol 1967): van der Corput's, and that of the polynomial x + 1.
-struct Sobol {
-  std::uint32_t x, y;
-};
-
-Sobol sobol(std::uint32_t index) {
-  Sobol point{0, 0};
-  std::uint32_t second = 1u << 31;
-  for (std::uint32_t bit = 1u << 31; index != 0; index >>= 1, bit >>= 1, second ^= second >> 1) {
-    if ((index & 1u) != 0) {
-      point.x ^= bit;
-      point.y ^= second;
-    }
-  }
-  return point;
-}
-
-double unit(std::uint32_t bits) {
-  return (static_cast<double>(bits) + 0.5) * 0x1p-32;
-}
-
-PreparedLight directional(const glm::dvec3& toward, const glm::dvec3& irradiance) {
-  PreparedLight light;
-  light.axis = -toward;
-  light.intensity = irradiance;
-  return light;
-}
 
 Color mirrored_light(const LobeView<double>& lobe, const EnvironmentLight& light) {
   const Vec3<double> d = lobe.n * (2.0 * dot(lobe.n, lobe.v)) - lobe.v;
@@ -59,7 +18,8 @@ Color mirrored_light(const LobeView<double>& lobe, const EnvironmentLight& light
 }
 
 // What perfectly smooth layers mirror: no drawn direction meets that.
-Color mirrors(const Surface<double>& surface, Layers layers, const Lighting& lighting, const EnvironmentLight& light) {
+Color mirrors(const Surface<double>& surface, Layers layers, const ImageLighting& all) {
+  const Lighting& lighting = all.lighting;
   const LobeView<double> lobe(surface.normal, surface.view);
   const LobeView<double> coat(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view);
   const double k = layers.clearcoat ? brdf::clearcoat_weight(surface.clearcoat, coat.n_dot_v) * lighting.factors.coat_weight : 0.0;
@@ -71,68 +31,162 @@ Color mirrors(const Surface<double>& surface, Layers layers, const Lighting& lig
       s = sheen.scale(sheen.e_v());
     }
     const BaseIntegrals delta{0.0, 0.0, s, s * brdf::schlick_weight(lobe.n_dot_v)};
-    sum = sum + base_light(surface.base, delta) * mirrored_light(lobe, light) * ((1 - k) * lighting.factors.base);
+    sum = sum + base_light(surface.base, delta) * mirrored_light(lobe, *all.light) * ((1 - k) * lighting.factors.base);
   }
   if (layers.clearcoat && !(surface.coat_alpha > 0.0)) {
-    sum = sum + mirrored_light(coat, light) * (k * lighting.factors.coat_lobe);
+    sum = sum + mirrored_light(coat, *all.light) * (k * lighting.factors.coat_lobe);
   }
   return sum * surface.occlusion;
 }
 
-double largest(const Color& c) {
-  return std::max({c.r, c.g, c.b});
+bool bright_reaches(const Surface<double>& surface, Layers layers, const EnvironmentLight& light) {
+  return !light.bright().dark() && !(light.bright_below(surface.normal) && (!layers.clearcoat || light.bright_below(surface.coat_normal)));
 }
+
+LobeSampling sampling_of(const Surface<double>& surface, Layers layers, const EnvironmentLight& light) {
+  return lobe_sampling(surface, layers, !light.soft().dark(), bright_reaches(surface, layers, light));
+}
+
+// Each strategy of each replica draws its weight at least once.
+static_assert(EnvironmentEstimate::replicas * LobeSampling::largest_total_weight <= least_samples);
+
+// Which sequence a strategy of a replica takes: all of a stream's differ, since an odd stride meets every one of 2^8 before any again.
+static_assert(EnvironmentEstimate::replicas * strategy_count <= DirectionPool::sequences);
+std::uint32_t sequence(std::uint64_t stream, std::uint32_t replica, std::size_t strategy) {
+  const std::uint64_t place = replica * strategy_count + strategy;
+  return static_cast<std::uint32_t>((stream >> 32) + place * ((stream & 0xFFFFu) | 1u)) % DirectionPool::sequences;
+}
+
+// What the points [begin, end) of each strategy, times its weight, add up to in one replica.
+Color replica_sum(const ImageSumTask& task, const DirectionPool& pool, std::uint64_t stream, std::uint32_t replica, std::uint32_t begin,
+                  std::uint32_t end) {
+  DirectionPool::LightBlock light[first_lobe];
+  DirectionPool::LobeBlock lobe[strategy_count];
+  std::uint32_t at[strategy_count];
+  for (std::size_t k = 0; k < strategy_count; ++k) {
+    at[k] = begin * task.sampling->weights[k];
+  }
+  Color sum{0, 0, 0};
+  for (bool more = true; more;) {
+    StrategyPoints points;
+    more = false;
+    for (std::size_t k = 0; k < strategy_count; ++k) {
+      const std::uint32_t last = end * task.sampling->weights[k];
+      if (at[k] == last) {
+        continue;
+      }
+      const std::uint32_t count = std::min(last - at[k], DirectionPool::block - at[k] % DirectionPool::block);
+      const std::uint32_t id = sequence(stream, replica, k);
+      points.count[k] = count;
+      if (k == index_of(Strategy::Soft)) {
+        points.light[k] = pool.soft(id, at[k], light[k]);
+      } else if (k == index_of(Strategy::Bright)) {
+        points.light[k] = pool.bright(id, at[k], light[k]);
+      } else {
+        points.lobe[k] = pool.lobe(id, at[k], lobe[k]);
+      }
+      at[k] += count;
+      more = more || at[k] < last;
+    }
+    sum = sum + image_sum(task, points);
+  }
+  return sum;
+}
+
+struct Task {
+  Surface<double> dark;
+  ImageSumTask sum;
+
+  Task(const Surface<double>& surface, Layers layers, const ImageLighting& lighting, const LobeSampling& sampling, CurveCache& curves)
+      : dark(surface),
+        sum{&dark, layers, lighting.lighting, &sampling, lighting.light->soft().texels(), lighting.light->bright().texels()} {
+    dark.emission = {0, 0, 0};
+    if (layers.sheen) {
+      sum.lighting.curve = curves.at(lighting.lighting.albedo, surface.sheen_roughness);
+    }
+  }
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
+};
 
 }  // namespace
 
-Estimate shade_environment(const Surface<double>& surface, Layers layers, const Lighting& lighting, const EnvironmentLight& light,
-                           const SamplingGoal& goal) {
-  const LobeSampling sampling(surface, layers, light);
-  const std::size_t strategies = sampling.strategies();
-  Surface<double> dark = surface;
-  dark.emission = {0, 0, 0};
-  std::array<Color, replicas> sums{};
-  std::vector<PreparedLight> lights;
-  Lighting drawn = lighting;
-  const Color mirrored = mirrors(surface, layers, lighting, light);
-  Estimate out;
-  std::uint32_t points = 0;
-  std::uint32_t goal_points = first_points;
-  do {
-    for (std::size_t r = 0; r < replicas; ++r) {
-      lights.clear();
-      for (std::size_t strategy = 0; strategy < strategies; ++strategy) {
-        const std::uint64_t shift = mix(goal.seed ^ mix(r * 8 + strategy));
-        for (std::uint32_t i = points; i < goal_points; ++i) {
-          const Sobol p = sobol(i);
-          const glm::dvec3 direction =
-              sampling.sample(strategy, unit(p.x ^ static_cast<std::uint32_t>(shift)), unit(p.y ^ static_cast<std::uint32_t>(shift >> 32)));
-          const double pdf = sampling.mean_pdf(direction) * static_cast<double>(strategies);
-          if (pdf > 0.0) {
-            lights.push_back(directional(direction, light.radiance(direction) / pdf));
-          }
-        }
-      }
-      drawn.lights = lights.data();
-      drawn.light_count = lights.size();
-      sums[r] = sums[r] + shade(dark, layers, drawn, NoListener{}).radiance;
-    }
-    points = goal_points;
-    goal_points *= 2;
+const albedo::Curve* CurveCache::at(const albedo::Interpolant* interpolant, double sheen_roughness) {
+  if (!curve_ || curve_->sheen_roughness() != sheen_roughness) {
+    curve_ = interpolant->at_roughness(sheen_roughness);
+  }
+  return &*curve_;
+}
 
-    Color mean{0, 0, 0};
-    for (const Color& sum : sums) {
-      mean = mean + sum * (1.0 / (static_cast<double>(points) * replicas));
+EnvironmentEstimate::EnvironmentEstimate(const Surface<double>& surface, Layers layers, const ImageLighting& lighting, std::uint64_t stream)
+    : lighting_(&lighting),
+      layers_(layers),
+      sampling_(sampling_of(surface, layers, *lighting.light)),
+      mirrored_(mirrors(surface, layers, lighting)),
+      occlusion_(surface.occlusion),
+      stream_(mix(stream)),
+      directions_a_point_(replicas * sampling_.total_weight()) {}
+
+bool EnvironmentEstimate::refine(const Surface<double>& surface, CurveCache& curves, std::uint32_t most_directions) {
+  const std::uint32_t most_points = most_directions / directions_a_point_;
+  std::uint32_t end = points_ * 2;
+  for (std::uint32_t first = first_points; points_ == 0 && end == 0 && first > 0; first /= 2) {
+    end = first <= most_points ? first : 0;
+  }
+  if (end == 0 || end > most_points) {
+    return false;
+  }
+  const Task task(surface, layers_, *lighting_, sampling_, curves);
+  for (std::uint32_t r = 0; r < replicas; ++r) {
+    sums_[r] = sums_[r] + replica_sum(task.sum, *lighting_->pool, stream_, r, points_, end);
+  }
+  points_ = end;
+  return true;
+}
+
+Estimate EnvironmentEstimate::value() const {
+  constexpr double student = 3.586 / 3.0;  // 15 degrees of freedom
+  if (points_ == 0) {
+    return {mirrored_, {0, 0, 0}};
+  }
+  Color mean{0, 0, 0};
+  for (const Color& sum : sums_) {
+    mean = mean + sum * (1.0 / (static_cast<double>(points_) * replicas));
+  }
+  Color variance{0, 0, 0};  // of the mean
+  for (const Color& sum : sums_) {
+    const Color off = sum * (1.0 / points_) + mean * -1.0;
+    variance = variance + off * off * (1.0 / (replicas * (replicas - 1)));
+  }
+  const Color deviation{std::sqrt(variance.r), std::sqrt(variance.g), std::sqrt(variance.b)};
+  return {mean * occlusion_ + mirrored_, deviation * (student * occlusion_)};
+}
+
+Color coarse_environment(const Surface<double>& surface, Layers layers, const ImageLighting& lighting, std::uint64_t stream,
+                         CurveCache& curves) {
+  constexpr std::uint32_t coarse_replicas = 2;
+  constexpr std::uint32_t coarse_points = 4;
+  const LobeSampling sampling = sampling_of(surface, layers, *lighting.light);
+  const Task task(surface, layers, lighting, sampling, curves);
+  Color sum{0, 0, 0};
+  for (std::uint32_t r = 0; r < coarse_replicas; ++r) {
+    sum = sum + replica_sum(task.sum, *lighting.pool, mix(stream), r, 0, coarse_points);
+  }
+  return sum * (surface.occlusion / (coarse_replicas * coarse_points)) + mirrors(surface, layers, lighting);
+}
+
+Estimate shade_environment(const Surface<double>& surface, Layers layers, const ImageLighting& lighting, const SamplingGoal& goal,
+                           std::uint64_t stream) {
+  EnvironmentEstimate estimate(surface, layers, lighting, stream);
+  CurveCache curves;
+  while (estimate.refine(surface, curves, goal.samples)) {
+    const Estimate now = estimate.value();
+    if (now.standard_error.r <= goal.error * now.mean.r && now.standard_error.g <= goal.error * now.mean.g &&
+        now.standard_error.b <= goal.error * now.mean.b) {
+      break;
     }
-    Color variance{0, 0, 0};  // of the mean
-    for (const Color& sum : sums) {
-      const Color off = sum * (1.0 / points) + mean * -1.0;
-      variance = variance + off * off * (1.0 / (replicas * (replicas - 1)));
-    }
-    out.mean = mean * surface.occlusion + mirrored;
-    out.standard_error = Color{std::sqrt(variance.r), std::sqrt(variance.g), std::sqrt(variance.b)} * surface.occlusion;
-  } while (largest(out.standard_error) > goal.error * largest(out.mean) && points * strategies * replicas * 2 <= goal.samples);
-  return out;
+  }
+  return estimate.value();
 }
 
 }  // namespace sheen::golden

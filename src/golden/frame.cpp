@@ -27,6 +27,7 @@ Frame::Frame(const scene::Scene& scene_in, const Settings& settings_in)
   });
   if (settings.environment != nullptr && settings.environment->is_image()) {
     environment.emplace(*settings.environment);
+    directions.emplace(*environment, settings.sampling.seed);
   }
   if (has_sheen) {
     albedo.emplace(settings.sheen.visibility);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "golden/direction_pool.h"
 #include "golden/environment_light.h"
 #include "golden/geometry.h"
 #include "golden/golden.h"
@@ -31,6 +32,7 @@ struct Frame {
   Tracer tracer;
   std::vector<PreparedLight> lights;
   std::optional<EnvironmentLight> environment;  ///< only if it is an image
+  std::optional<DirectionPool> directions;      ///< likewise
   std::optional<albedo::Interpolant> albedo;    ///< only if a material in use has sheen
 };
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "golden/vec3.h"
+#include "number/lanes.h"
 #include "scene/scene.h"
 
 namespace sheen::golden {
@@ -27,6 +29,19 @@ template <class Real>
 struct Arriving {
   Vec3<Real> direction;        ///< unit, toward the light
   brdf::Rgb<Real> irradiance;  ///< lux at normal incidence
+};
+
+/// Distant lights, each with its direction and irradiance: lanes of a batch take as many at once. Lengths are a multiple of the lanes.
+struct DistantLights {
+  const double *x, *y, *z;
+  const double *r, *g, *b;
+
+  template <class Real>
+  Arriving<Real> arriving(std::size_t first) const {
+    using Lanes = number::Lanes<Real>;
+    return {{Lanes::load(x + first), Lanes::load(y + first), Lanes::load(z + first)},
+            {Lanes::load(r + first), Lanes::load(g + first), Lanes::load(b + first)}};
+  }
 };
 
 /// Direction and irradiance at a point (KHR_lights_punctual, "Range Property" and "Inner and Outer Cone Angles"). A point

@@ -4,11 +4,14 @@
 
 namespace sheen::golden {
 
-/// When to stop drawing directions for a surface point.
+/// When to stop drawing directions toward an image that lights.
 struct SamplingGoal {
-  double error = 0.01;               ///< relative standard error of the largest channel that is enough
-  std::uint32_t samples = 1u << 20;  ///< directions at most
+  double error = 0.01;               ///< relative standard error, of each channel, that 99 % of the covered pixels are to meet
+  std::uint32_t samples = 1u << 20;  ///< directions at most, for each surface that a pixel shows; at least least_samples
   std::uint64_t seed = 0;
 };
+
+/// Fewer directions than this give no standard error.
+inline constexpr std::uint32_t least_samples = 256;
 
 }  // namespace sheen::golden

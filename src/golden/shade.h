@@ -4,6 +4,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "albedo/curve.h"
 #include "albedo/interpolant.h"
 #include "brdf/clearcoat.h"
 #include "brdf/sheen.h"
@@ -21,6 +22,9 @@ struct Lighting {
   albedo::SheenModel sheen;
   const albedo::Interpolant* albedo = nullptr;  ///< needed where a surface has sheen
   TermFactors factors;
+  /// One surface under many lights: E at its roughness, and these, one a lane, instead of `lights`.
+  const albedo::Curve* curve = nullptr;
+  const DistantLights* distant = nullptr;
 };
 
 /// Radiance of a surface, and what the approximations the texts grant a shader may change in it.
@@ -128,7 +132,7 @@ class SheenLayer {
         roughness_(surface.sheen_roughness),
         n_dot_v_(lobe.n_dot_v),
         color_(surface.sheen_color),
-        e_v_(directional_albedo(*lighting.albedo, n_dot_v_, roughness_)) {}
+        e_v_(albedo_at(n_dot_v_)) {}
 
   const Real& e_v() const { return e_v_; }
   const brdf::SheenLobe<Real>& lobe() const { return lobe_; }
@@ -137,7 +141,7 @@ class SheenLayer {
   template <class Mask>
   Real e_l(const Mask& lit, const Real& n_dot_l) const {
     using brdf::select;
-    return directional_albedo(*lighting_.albedo, select(lit, n_dot_l, n_dot_v_), roughness_);
+    return albedo_at(select(lit, n_dot_l, n_dot_v_));
   }
 
   bool two_directions() const {
@@ -156,6 +160,10 @@ class SheenLayer {
   }
 
  private:
+  Real albedo_at(const Real& cosine) const {
+    return lighting_.curve != nullptr ? (*lighting_.curve)(cosine) : directional_albedo(*lighting_.albedo, cosine, roughness_);
+  }
+
   brdf::SheenLobe<Real> lobe_;
   const Lighting& lighting_;
   Real roughness_, n_dot_v_;
@@ -169,6 +177,7 @@ class SheenLayer {
 template <class Real, class Listener>
 Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& lighting, Listener&& listener) {
   using brdf::max;
+  using brdf::min;
   using brdf::select;
   using Color = brdf::Rgb<Real>;
   const Color zero{Real(0), Real(0), Real(0)};
@@ -187,12 +196,13 @@ Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& 
   Shaded<Real> out{emission, absolute(emission), zero, max(lobe.mirrored, coat.mirrored)};
 
   for (std::size_t i = 0; i < lighting.light_count; ++i) {
-    const Arriving<Real> light = arriving(lighting.lights[i], surface.position);
+    const Arriving<Real> light = lighting.distant != nullptr ? lighting.distant->arriving<Real>(i * number::Lanes<Real>::count)
+                                                             : arriving(lighting.lights[i], surface.position);
     const Real cosine = dot(surface.normal, light.direction);
     const auto lit = cosine > Real(0);
     LightPart<Real> part{cosine, Real(0), Real(0), Real(0), Real(0), Real(1), Real(0), zero, zero, zero};
 
-    const Real n_dot_l = max(cosine, Real(0));
+    const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
     const HalfAngles<Real> half(lobe, light.direction);
     part.n_dot_h = half.n_dot_h;
     const Color base =
@@ -216,7 +226,7 @@ Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& 
     if (layers.clearcoat) {
       const Real coat_cosine = dot(surface.coat_normal, light.direction);
       const auto coat_lit = coat_cosine > Real(0);
-      const Real nc_dot_l = max(coat_cosine, Real(0));
+      const Real nc_dot_l = min(max(coat_cosine, Real(0)), Real(1));
       const HalfAngles<Real> coat_half(coat, light.direction);
       part.coat_lobe = brdf::clearcoat_lobe(surface.coat_alpha, nc_dot_l, coat.n_dot_v, coat_half.n_dot_h, coat_half.sin2_theta_h) *
                        Real(factors.coat_lobe);

@@ -59,6 +59,26 @@ TEST(Shade, SheenTermsMeetTheNumberComputedIndependently) {
   EXPECT_NEAR(parts[0].sheen.b, 0.25 * 0.06618617242, 1e-11);
 }
 
+// A unit vector's square may be an ulp above 1, and Lambda takes the root of 1 - N.L.
+TEST(Shade, ALightAlongTheNormalIsFinite) {
+  const albedo::Interpolant e(albedo::Visibility::Charlie);
+  int above_one = 0;
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 n = glm::normalize(glm::dvec3(std::sin(i * 1.7), std::cos(i * 2.3), std::sin(i * 0.9 + 1.0)));
+    Surface<double> s = plain_surface();
+    s.normal = s.coat_normal = vec(n);
+    s.view = vec(glm::normalize(n + glm::dvec3(0.3, 0.2, 0.1)));
+    s.sheen_color = {0.8, 0.8, 0.8};
+    s.sheen_roughness = 0.5;
+    s.clearcoat = 1.0;
+    s.coat_alpha = 0.1;
+    const std::vector<PreparedLight> lights = one_light(n);
+    above_one += dot(s.normal, vec(-lights[0].axis)) > 1.0 ? 1 : 0;
+    EXPECT_TRUE(std::isfinite(shade(s, {true, true}, {lights.data(), lights.size(), {}, &e, {}}, NoListener{}).radiance.g)) << i;
+  }
+  EXPECT_GT(above_one, 0) << "the case was met";
+}
+
 TEST(Shade, FactorsChangeTheTermTheyName) {
   Surface<double> s = plain_surface();
   s.view = vec(glm::normalize(glm::dvec3(0.4, 0.1, 0.6)));

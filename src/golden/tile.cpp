@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
 
-#include "golden/environment_shade.h"
 #include "golden/shade_all.h"
 #include "golden/uniform_light.h"
 
@@ -240,37 +238,6 @@ void Tile::add_uniform_light(const std::uint32_t* order, std::size_t count, cons
     Shaded<double>& shaded = shaded_[order[i]];
     shaded.radiance = shaded.radiance + more.radiance;
     shaded.magnitude = shaded.magnitude + more.magnitude;
-  }
-}
-
-void Tile::add_image_light(const std::vector<Plan>& plans) {
-  const brdf::Rgb<double> zero{0, 0, 0};
-  coarse_.assign(surfaces_.size(), zero);
-  refinement_.assign(surfaces_.size(), zero);
-  standard_error_.assign(surfaces_.size(), zero);
-  const Lighting lighting = frame_.lighting();
-  const auto estimate = [&](std::uint32_t surface, const SamplingGoal& goal) {
-    return shade_environment(surfaces_[surface], frame_.reader.layers(materials_[surface]), lighting, *frame_.environment, goal);
-  };
-  for (std::size_t p = 0; p < plans.size(); ++p) {
-    const std::uint32_t end = p + 1 < plans.size() ? plans[p + 1].centre : static_cast<std::uint32_t>(samples_.size());
-    for (std::uint32_t s = plans[p].centre; s < end; ++s) {
-      for (std::uint32_t layer = 0; layer < samples_[s].count; ++layer) {
-        const std::uint32_t surface = layers_[samples_[s].first + layer].surface;
-        SamplingGoal goal = frame_.settings.sampling;
-        // Each pixel and layer has a sequence of its own, wherever the tiles lie and whoever draws them.
-        goal.seed = (goal.seed * 0x100000001B3u + plans[p].pixel) * 64u + layer;
-        if (frame_.settings.bounds) {
-          const SamplingGoal few{std::numeric_limits<double>::infinity(), 0, goal.seed};
-          coarse_[surface] = estimate(surface, few).mean;
-        }
-        if (s == plans[p].centre) {
-          const Estimate full = estimate(surface, goal);
-          refinement_[surface] = full.mean + coarse_[surface] * -1.0;
-          standard_error_[surface] = full.standard_error;
-        }
-      }
-    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "golden/environment_shade.h"
 #include "golden/frame.h"
 #include "golden/shade.h"
 
@@ -68,6 +69,9 @@ class Tile {
   void shade_surfaces();
   void add_uniform_light(const std::uint32_t* order, std::size_t count, const Lighting& lighting);
   void add_image_light(const std::vector<Plan>& plans);
+  void add_coarse_light(const std::vector<Plan>& plans, const ImageLighting& lighting);
+  double relative_error(const Sample& sample) const;
+  static std::uint64_t stream(const Plan& plan, std::uint32_t layer);
   Composed compose(const Sample& sample, bool refined = false) const;
   Pixel finish(const Plan& plan) const;
 
@@ -78,12 +82,13 @@ class Tile {
   };
 
   const Frame& frame_;
+  CurveCache curves_;
   std::array<Look, 5> looks_;
   std::vector<Surface<double>> surfaces_;
   std::vector<int> materials_;  // of surfaces_
   std::vector<Shaded<double>> shaded_;
-  // Under an image, of surfaces_: from few directions, the same for all surfaces of a pixel, so that their differences tell what a moved
-  // sample changes; and, of those at pixel centres, what is left to the full estimate.
+  // Under an image, of surfaces_: with bounds, from few directions, drawn alike for all surfaces of a pixel, so that their differences tell
+  // what a moved sample changes; and, of those at pixel centres, what is left to the full estimate.
   std::vector<brdf::Rgb<double>> coarse_, refinement_, standard_error_;
   std::vector<LayerRef> layers_;
   std::vector<Sample> samples_;

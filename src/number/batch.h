@@ -20,6 +20,9 @@ struct Lanes<Batch> {
   static Batch load(const double* values) { return Batch::load_unaligned(values); }
   static void store(double* values, const Batch& x) { x.store_unaligned(values); }
   static double sum(const Batch& x) { return xsimd::hadd(x); }
+  static Batch pick(const double* values, const std::size_t* offsets) {
+    return {values[offsets[0]], values[offsets[1]], values[offsets[2]], values[offsets[3]]};
+  }
 };
 
 }  // namespace sheen::number

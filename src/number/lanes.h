@@ -14,6 +14,8 @@ struct Lanes<double> {
   static double load(const double* values) { return *values; }
   static void store(double* values, double x) { *values = x; }
   static double sum(double x) { return x; }
+  /// The numbers at `offsets`, one a lane.
+  static double pick(const double* values, const std::size_t* offsets) { return values[*offsets]; }
 };
 
 }  // namespace sheen::number

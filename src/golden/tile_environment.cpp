@@ -1,0 +1,93 @@
+// The light of an image in a tile: a full estimate at pixel centres, a coarse one at every sample that the bound compares them with.
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "golden/tile.h"
+
+namespace sheen::golden {
+
+// Each pixel and layer has a stream of its own, wherever the tiles lie and whoever draws them.
+std::uint64_t Tile::stream(const Plan& plan, std::uint32_t layer) {
+  return plan.pixel * 64u + layer;
+}
+
+void Tile::add_coarse_light(const std::vector<Plan>& plans, const ImageLighting& lighting) {
+  for (std::size_t p = 0; p < plans.size(); ++p) {
+    const std::uint32_t end = p + 1 < plans.size() ? plans[p + 1].centre : static_cast<std::uint32_t>(samples_.size());
+    for (std::uint32_t s = plans[p].centre; s < end; ++s) {
+      for (std::uint32_t layer = 0; layer < samples_[s].count; ++layer) {
+        const std::uint32_t surface = layers_[samples_[s].first + layer].surface;
+        coarse_[surface] =
+            coarse_environment(surfaces_[surface], frame_.reader.layers(materials_[surface]), lighting, stream(plans[p], layer), curves_);
+      }
+    }
+  }
+}
+
+// Of the channel where it is largest. A channel that is dark beside the others counts as a thousandth of them.
+double Tile::relative_error(const Sample& sample) const {
+  const Composed full = compose(sample, true);
+  const double brightest = std::max({full.radiance.r, full.radiance.g, full.radiance.b});
+  double largest = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    if (full.standard_error[c] > 0.0) {
+      largest = std::max(largest, full.standard_error[c] / std::max(full.radiance[c], 1e-3 * brightest));
+    }
+  }
+  return largest;
+}
+
+// Directions are doubled wherever the error is still above the goal, until that is so at no more than one pixel in a hundred of the tile:
+// then the whole picture's 99th percentile meets it. Decided tile by tile, so that it does not depend on the order of tiles.
+void Tile::add_image_light(const std::vector<Plan>& plans) {
+  const brdf::Rgb<double> zero{0, 0, 0};
+  coarse_.assign(surfaces_.size(), zero);
+  refinement_.assign(surfaces_.size(), zero);
+  standard_error_.assign(surfaces_.size(), zero);
+  const ImageLighting lighting{frame_.lighting(), &*frame_.environment, &*frame_.directions};
+  if (frame_.settings.bounds) {
+    add_coarse_light(plans, lighting);
+  }
+  struct Open {
+    Sample sample;
+    std::size_t first;  // of estimates, one a layer
+  };
+  std::vector<EnvironmentEstimate> estimates;
+  std::vector<Open> open;
+  for (const Plan& plan : plans) {
+    const Sample& sample = samples_[plan.centre];
+    if (sample.count > 0) {
+      open.push_back({sample, estimates.size()});
+    }
+    for (std::uint32_t layer = 0; layer < sample.count; ++layer) {
+      const std::uint32_t surface = layers_[sample.first + layer].surface;
+      estimates.emplace_back(surfaces_[surface], frame_.reader.layers(materials_[surface]), lighting, stream(plan, layer));
+    }
+  }
+  const SamplingGoal& goal = frame_.settings.sampling;
+  const std::size_t allowed = open.size() / 100;
+  std::size_t exhausted = 0;
+  while (open.size() + exhausted > allowed && !open.empty()) {
+    std::vector<Open> still_open;
+    for (const Open& pixel : open) {
+      bool drew = false;
+      for (std::uint32_t layer = 0; layer < pixel.sample.count; ++layer) {
+        const std::uint32_t surface = layers_[pixel.sample.first + layer].surface;
+        EnvironmentEstimate& estimate = estimates[pixel.first + layer];
+        drew = estimate.refine(surfaces_[surface], curves_, goal.samples) || drew;
+        const Estimate now = estimate.value();
+        refinement_[surface] = now.mean + coarse_[surface] * -1.0;
+        standard_error_[surface] = now.standard_error;
+      }
+      if (!drew) {
+        ++exhausted;
+      } else if (relative_error(pixel.sample) > goal.error) {
+        still_open.push_back(pixel);
+      }
+    }
+    open = std::move(still_open);
+  }
+}
+
+}  // namespace sheen::golden
