@@ -19,6 +19,8 @@ class LobeSampling {
   std::size_t strategies() const { return count_; }
   /// A unit direction by one of the strategies for (u, v) in [0, 1)^2; may lie below the surface, where it lights nothing.
   glm::dvec3 sample(std::size_t strategy, double u, double v) const;
+  /// Density of one strategy, 1/sr.
+  double pdf(std::size_t strategy, const glm::dvec3& direction) const { return pdf(kinds_[strategy], direction); }
   /// Mean density of all strategies, 1/sr: what the balance heuristic divides by when each draws as often.
   double mean_pdf(const glm::dvec3& direction) const;
 

@@ -132,6 +132,27 @@ TEST(Model, ViewIsMirroredWhereTheNormalLooksAway) {
   EXPECT_EQ(im.at(5, 5, im.channel("mirrored")), 0.0f);
 }
 
+// Whatever visibility and scaling are asked for besides, and whatever the sheen's own roughness: the draft has none of them.
+TEST(Model, SheenOfTheDraftOf2019MeetsTheLongDoubleEvaluation) {
+  for (const double roughness : {0.15, 0.4, 1.0}) {
+    for (const double metallic : {0.0, 0.6, 1.0}) {
+      scene::Material m = velvet(0.5);
+      m.metallic_factor = metallic;
+      m.roughness_factor = roughness;
+      m.clearcoat.factor = 0.6;
+      m.clearcoat.roughness_factor = 0.3;
+      m.emissive_factor = {0.1, 0.5, 2.0};
+      const scene::Scene s = test::scene_with(test::square(2.0, 0.0, 1.0), m, test::camera_at(2.0, 1.2), three_lights());
+      Settings settings = test::settings_for(9, 9);
+      settings.sheen.model = albedo::Model::Draft2019;
+      EXPECT_LT(worst_error(s, settings, 1.0), tolerance) << "roughness " << roughness << " metallic " << metallic;
+      const image::Image draft = render(s, settings);
+      settings.sheen = {albedo::Visibility::Refined, albedo::AlbedoScaling::View, albedo::Model::Draft2019};
+      EXPECT_EQ(render(s, settings).data, draft.data);
+    }
+  }
+}
+
 TEST(Model, OrthographicCameraSeesAlongItsAxis) {
   const scene::Scene s = test::scene_with(test::square(2.0, 0.0, 1.0), velvet(0.5), test::orthographic_at(5.0, 1.0), three_lights());
   EXPECT_LT(worst_error(s, test::settings_for(12, 8), 1.0), tolerance);
