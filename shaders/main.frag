@@ -43,9 +43,16 @@ void main() {
     base.f0 = specular.rgb;
     base.specular = specular.a;
 #endif
+#ifdef BASE_PHYSICAL
+    base.view = ggx_directional_albedo(view.NdotV, base.alpha);
+    base.average = ggx_average_albedo(base.alpha);
+#endif
 #endif
 #ifdef SHEEN
     vec4 sheen_inputs = material_sheen();
+#ifdef SHEEN_DRAFT_2019
+    sheen_inputs = sheen_of_draft_2019(sheen_inputs.rgb, base.baseColor, metallic_roughness);
+#endif
     SheenMaterial sheen = SheenMaterial(sheen_inputs.rgb, sheen_inputs.a, sheen_visibility_of_view(view.NdotV, sheen_inputs.a));
 #ifdef ALBEDO_SCALING_VIEW
     float scale = sheen_albedo_scaling(sheen.sheenColor, sheen.sheenRoughness, view.NdotV);

@@ -35,6 +35,7 @@ struct ShaderPlan {
   std::vector<std::string> uniforms;  ///< every active uniform, of both stages, without samplers
   std::vector<TextureUse> textures;
   bool sheen_albedo_table = false;  ///< reads u_sheen_albedo
+  bool ggx_albedo_table = false;    ///< reads u_ggx_albedo
   bool light_texture = false;       ///< reads the lights from a texture
   bool normals = false, tangents = false, colors = false;
   bool texcoords[2] = {false, false};
@@ -49,7 +50,7 @@ const std::vector<std::string>& feature_names();
 /// std::invalid_argument for a fit of the refined visibility, which nobody has published.
 ShaderPlan plan_shader(const scene::Scene& scene, const scene::Primitive& primitive, const scene::Camera& camera, const Settings& settings);
 
-/// The textures a scene's plans read, each name once, in the order of their texture units; the sheen's table and the lights come last.
+/// The textures a scene's plans read, each name once, in the order of their texture units; tables and the lights come last.
 std::vector<std::string> texture_units(const std::vector<ShaderPlan>& plans);
 
 }  // namespace sheen::renderer

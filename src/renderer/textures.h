@@ -6,6 +6,7 @@
 
 #include <glm/vec4.hpp>
 
+#include "albedo/ggx_table.h"
 #include "albedo/table.h"
 #include "gles/objects.h"
 #include "renderer/features.h"
@@ -29,6 +30,8 @@ class Pictures {
 
 /// An R32F texture of a table of E.
 gles::Texture upload_table(const gles::Functions& gl, const albedo::Table& table);
+/// An RG32F texture of the GGX lobe's albedo.
+gles::Texture upload_table(const gles::Functions& gl, const albedo::GgxTable& table);
 
 /// The lights as a texture of 256 lights a row, four texels each.
 gles::Texture upload_lights(const gles::Functions& gl, std::vector<glm::vec4> vectors);
