@@ -7,12 +7,15 @@ namespace sheen::conformance {
 namespace {
 
 using albedo::AlbedoScaling;
+using albedo::Model;
 using albedo::Visibility;
 
 constexpr std::array<std::pair<Visibility, const char*>, 3> visibilities = {
     {{Visibility::Charlie, "charlie"}, {Visibility::Ashikhmin, "ashikhmin"}, {Visibility::Refined, "refined"}}};
 constexpr std::array<std::pair<AlbedoScaling, const char*>, 4> scalings = {
     {{AlbedoScaling::Full, "full"}, {AlbedoScaling::View, "view"}, {AlbedoScaling::None, "none"}, {AlbedoScaling::Literal, "literal"}}};
+constexpr std::array<std::pair<Model, const char*>, 3> models = {
+    {{Model::Ratified, "ratified"}, {Model::Draft2019, "draft-2019"}, {Model::Physical, "physical"}}};
 
 template <class Table, class Value>
 std::string word_of(const Table& table, Value value) {
@@ -44,11 +47,17 @@ std::string to_string(Visibility visibility) {
 std::string to_string(AlbedoScaling scaling) {
   return word_of(scalings, scaling);
 }
+std::string to_string(Model model) {
+  return word_of(models, model);
+}
 Visibility parse_visibility(const std::string& word) {
   return value_of(visibilities, word, "visibility");
 }
 AlbedoScaling parse_albedo_scaling(const std::string& word) {
   return value_of(scalings, word, "albedo scaling");
+}
+Model parse_model(const std::string& word) {
+  return value_of(models, word, "model");
 }
 
 }  // namespace sheen::conformance

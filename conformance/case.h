@@ -30,8 +30,11 @@ struct Case {
 std::string to_string(albedo::Visibility visibility);
 /// "full", "view", "none", "literal".
 std::string to_string(albedo::AlbedoScaling scaling);
+/// "ratified", "draft-2019", "physical".
+std::string to_string(albedo::Model model);
 /// The reverse; throw std::invalid_argument for an unknown word.
 albedo::Visibility parse_visibility(const std::string& word);
 albedo::AlbedoScaling parse_albedo_scaling(const std::string& word);
+albedo::Model parse_model(const std::string& word);
 
 }  // namespace sheen::conformance

@@ -76,9 +76,13 @@ golden::Settings golden_settings(const Case& one, const albedo::SheenModel& mode
 }
 
 std::string settings_text(const golden::Settings& settings) {
-  return std::to_string(settings.view.width) + "x" + std::to_string(settings.view.height) + " camera " +
-         std::to_string(settings.view.camera.value_or(0)) + " " + to_string(settings.sheen.visibility) + " " +
-         to_string(settings.sheen.scaling);
+  std::string text = std::to_string(settings.view.width) + "x" + std::to_string(settings.view.height) + " camera " +
+                     std::to_string(settings.view.camera.value_or(0)) + " " + to_string(settings.sheen.visibility) + " " +
+                     to_string(settings.sheen.scaling);
+  if (settings.sheen.model != albedo::Model::Ratified) {
+    text.append(" ").append(to_string(settings.sheen.model));
+  }
+  return text;
 }
 
 GoldenStore::GoldenStore(fs::path cache, fs::path committed, std::string suite)

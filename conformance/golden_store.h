@@ -31,7 +31,7 @@ void write_manifest(const std::filesystem::path& dir, const Manifest& manifest);
 
 /// The settings a golden of the case is computed with.
 golden::Settings golden_settings(const Case& one, const albedo::SheenModel& model, int subpixel_bits);
-/// What of them its radiance depends on, as text: "128x128 camera 0 charlie full".
+/// What of them its radiance depends on, as text: "128x128 camera 0 charlie full"; a model other than the ratified one is named last.
 std::string settings_text(const golden::Settings& settings);
 
 /// What judges a candidate: RGBA (committed, if that is what the manifest promises, else computed), bounds and exclusions (always

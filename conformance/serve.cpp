@@ -78,6 +78,8 @@ renderer::Settings read_settings(const json& request, renderer::Precision precis
       settings.sheen.visibility = parse_visibility(word);
     } else if (key == "albedo_scaling") {
       settings.sheen.scaling = parse_albedo_scaling(word);
+    } else if (key == "model") {
+      settings.sheen.model = parse_model(word);
     } else if (key == "precision") {
       settings.precision = parse_precision(word);
     } else if (key == "formulation") {

@@ -86,8 +86,19 @@ TEST_F(ServeTest, SettingsChangeThePicture) {
   json plain = request("plain");
   json other = request("other");
   other["settings"] = {{"visibility", "ashikhmin"}, {"albedo_scaling", "none"}, {"precision", "highp"}, {"formulation", "stable"}};
-  lines_for(plain.dump() + "\n" + other.dump() + "\n");
-  EXPECT_NE(image::read(folder_.path() / "plain.exr").data, image::read(folder_.path() / "other.exr").data);
+  json draft = request("draft");
+  draft["settings"] = {{"model", "draft-2019"}};
+  json physical = request("physical");
+  physical["settings"] = {{"model", "physical"}};
+  json ratified = request("ratified");
+  ratified["settings"] = {{"model", "ratified"}};
+  lines_for(plain.dump() + "\n" + other.dump() + "\n" + draft.dump() + "\n" + physical.dump() + "\n" + ratified.dump() + "\n");
+  const auto data = [this](const std::string& name) { return image::read(folder_.path() / (name + ".exr")).data; };
+  EXPECT_NE(data("plain"), data("other"));
+  EXPECT_NE(data("plain"), data("draft"));
+  EXPECT_NE(data("plain"), data("physical"));
+  EXPECT_NE(data("draft"), data("physical"));
+  EXPECT_EQ(data("plain"), data("ratified"));
 }
 
 TEST_F(ServeTest, AnEnvironmentLightsThePicture) {

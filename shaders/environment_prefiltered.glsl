@@ -2,6 +2,7 @@
 // lobe's albedo for the view and the environment filtered by a lobe seen from above. The base under a sheen is scaled by the view's
 // albedo alone, as KHR_materials_sheen allows for light from everywhere.
 
+#ifndef BASE_PHYSICAL
 // Split sums of the GGX lobe and of the diffuse term over (sqrt(N.V), roughness), nodes at the edges:
 //   r: integral of D Vis (1 - w) N.L,  g: of D Vis w N.L,  b: of w N.L / pi,  w = (1 - V.H)^5
 uniform sampler2D u_split_sum;
@@ -15,6 +16,7 @@ vec3 split_sum(float NdotV, float roughness) {
     vec4 high = mix(texelFetch(u_split_sum, node + ivec2(0, 1), 0), texelFetch(u_split_sum, node + ivec2(1, 1), 0), weight.x);
     return mix(low, high, weight.y).rgb;
 }
+#endif
 
 #ifdef ENVIRONMENT_UNIFORM
 vec3 diffuse_light(vec3 N) { return u_environment_uniform; }
@@ -63,6 +65,30 @@ vec3 sheen_light(vec3 N, float sheenRoughness) {
 #endif
 #endif
 
+#ifdef BASE_PHYSICAL
+// Both the light of many bounces and what reaches the diffuse part are, over all L, what the lobe leaves of 1 for the view: their averages
+// cancel.
+vec3 base_environment(BaseMaterial material, LayerView view, float roughness) {
+#ifdef SPECULAR
+    vec3 F0 = material.f0;
+    float strength = material.specular;
+#else
+    vec3 F0 = vec3(0.04);
+    float strength = 1.0;
+#endif
+    vec3 diffuse = diffuse_light(view.N);
+    vec3 specular = specular_light(view, roughness);
+    vec3 F_ms = multiple_scattering_fresnel(strength * average_fresnel(F0), material.average);
+    vec3 metal_F_ms = multiple_scattering_fresnel(average_fresnel(material.baseColor), material.average);
+    float scale = material.view.scale;
+    float missing = material.view.missing;
+    float bias = max(1.0 - scale - missing, 0.0);
+    float through = base_transmitted(material.view, max3(F0), strength, max3(F_ms));
+    vec3 dielectric = strength * (F0 * scale + bias) * specular + (F_ms * missing + through * material.baseColor) * diffuse;
+    vec3 metal = (material.baseColor * scale + bias) * specular + metal_F_ms * missing * diffuse;
+    return mix(dielectric, metal, material.metallic);
+}
+#else
 // The base of glTF 2.0, Appendix B.2. Its Fresnel terms are affine in w, so the split sums hold for every colour.
 vec3 base_environment(BaseMaterial material, LayerView view, float roughness) {
     vec3 sums = split_sum(view.NdotV, roughness);
@@ -77,6 +103,7 @@ vec3 base_environment(BaseMaterial material, LayerView view, float roughness) {
 #endif
     return mix(dielectric, specular * (material.baseColor * sums.r + sums.g), material.metallic);
 }
+#endif
 
 vec3 environment_light(Surface surface) {
     LayerView view = surface.view;

@@ -46,8 +46,15 @@ void main() {
     surface.base.f0 = specular.rgb;
     surface.base.specular = specular.a;
 #endif
+#ifdef BASE_PHYSICAL
+    surface.base.view = ggx_directional_albedo(surface.view.NdotV, surface.base.alpha);
+    surface.base.average = ggx_average_albedo(surface.base.alpha);
+#endif
 #ifdef SHEEN
     vec4 sheen_inputs = material_sheen();
+#ifdef SHEEN_DRAFT_2019
+    sheen_inputs = sheen_of_draft_2019(sheen_inputs.rgb, surface.base.baseColor, metallic_roughness);
+#endif
     float NdotV = surface.view.NdotV;
     surface.sheen = SheenMaterial(sheen_inputs.rgb, sheen_inputs.a, sheen_visibility_of_view(NdotV, sheen_inputs.a));
 #ifdef ALBEDO_SCALING_VIEW

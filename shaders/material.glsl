@@ -87,7 +87,9 @@ vec4 material_specular() {
 // sample(sheenRoughnessTexture).a". Returns (sheenColor, sheenRoughness).
 #ifdef SHEEN
 uniform vec3 u_sheen_color_factor;
+#ifndef SHEEN_DRAFT_2019
 uniform float u_sheen_roughness_factor;
+#endif
 #ifdef SHEEN_COLOR_TEXTURE
 uniform sampler2D u_sheen_color_texture;
 #ifdef SHEEN_COLOR_TEXTURE_TRANSFORM
@@ -101,7 +103,11 @@ uniform mat3 u_sheen_roughness_texture_transform;
 #endif
 #endif
 vec4 material_sheen() {
+#ifdef SHEEN_DRAFT_2019
+    vec4 value = vec4(u_sheen_color_factor, 0.0);  // the draft has no roughness of its own
+#else
     vec4 value = vec4(u_sheen_color_factor, u_sheen_roughness_factor);
+#endif
 #ifdef SHEEN_COLOR_TEXTURE
     value.rgb *= texture_sample(u_sheen_color_texture, SHEEN_COLOR_TEXTURE_UV, SHEEN_COLOR_TEXTURE_SAMPLER).rgb;
 #endif

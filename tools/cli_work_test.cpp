@@ -65,6 +65,37 @@ TEST_F(CommandLine, RenderVerifiesItselfAgainstTheGolden) {
   EXPECT_GT(verdict["compared_pixels"], 100);
 }
 
+TEST_F(CommandLine, EveryModelVerifiesItselfAndSaysWhatItLeavesOut) {
+  SceneParts parts;
+  parts.material = sheen_material();
+  parts.material["name"] = "velvet";
+  const std::string scene = write_scene("square", parts);
+  std::vector<std::vector<float>> pictures;
+  for (const std::string model : {"ratified", "draft-2019", "physical"}) {
+    const Outcome outcome = run(
+        with({"render", scene, "-o", path("out.exr"), "--verify", "--json", "--light", "directional:1,0,0.5:3", "--model", model}, small));
+    ASSERT_EQ(outcome.exit_code, 0) << model << ": " << outcome.err;
+    const auto report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report["model"], model);
+    EXPECT_EQ(report["visibility"], model == "draft-2019" ? "ashikhmin" : "charlie");
+    EXPECT_EQ(report["verify"]["status"], "pass");
+    EXPECT_EQ(outcome.err.find("velvet") != std::string::npos, model == "physical") << outcome.err;
+    pictures.push_back(image::read(path("out.exr")).data);
+    for (std::size_t earlier = 0; earlier + 1 < pictures.size(); ++earlier) {
+      EXPECT_NE(pictures[earlier], pictures.back()) << model;
+    }
+  }
+  const auto explained = nlohmann::json::parse(run({"explain", scene, "--model", "physical", "--json"}).out);
+  EXPECT_EQ(explained["tables"], nlohmann::json({"ggx_albedo"}));
+  // A white metal under uniform light vanishes.
+  parts.material = {{"pbrMetallicRoughness", {{"roughnessFactor", 0.8}}}};
+  parts.light = false;
+  const std::string metal = write_scene("metal", parts);
+  ASSERT_EQ(
+      run(with({"golden", metal, "-o", path("furnace.exr"), "--model", "physical", "--environment", "uniform:1,1,1"}, small)).exit_code, 0);
+  EXPECT_NEAR(image::read(path("furnace.exr")).at(12, 8, 1), 1.0f, 1e-5f);
+}
+
 TEST_F(CommandLine, BothContextsDraw) {
   const std::string scene = write_scene("square");
   for (const char* context : {"osmesa", "egl"}) {

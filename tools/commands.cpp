@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -76,19 +77,8 @@ void add_scene(CLI::App& app, SceneOptions& options) {
       ->type_name("LIGHT")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option_function<std::string>(
-         "--model",
-         [](const std::string& text) {
-           if (text == "draft-2019" || text == "physical") {
-             throw UsageError("--model " + text + ": not yet available in this version");
-           }
-           if (text != "ratified") {
-             throw UsageError("--model: " + text + " is not a model; there is ratified");
-           }
-         },
-         "The text that is followed: ratified")
-      ->type_name("WORD")
-      ->default_str("ratified");
+  add_word(app, "--model", options.sheen.model, model_words,
+           "The text that is followed: the ratified one, sheen as its draft of 2019 had it, or the base layer alone, conserving energy");
   app.add_option("--seed", options.seed, "Seed of the directions drawn toward an environment")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
       ->type_name("INT");
@@ -100,6 +90,25 @@ void add_scene(CLI::App& app, SceneOptions& options) {
       ->capture_default_str();
   app.add_flag("--background", options.background, "Show the environment where no surface is");
   add_json(app, options);
+}
+
+/// Resolves the model's choices. Throws UsageError where one that it does not have is asked for.
+void resolve_model(const CLI::App& app, SceneOptions& options) {
+  const albedo::SheenModel asked = options.sheen;
+  options.sheen = albedo::resolved(asked);
+  const std::string model = "--model " + word_of(model_words, asked.model);
+  for (const auto& [flag, differs] : {std::pair{"--visibility", options.sheen.visibility != asked.visibility},
+                                      std::pair{"--albedo-scaling", options.sheen.scaling != asked.scaling}}) {
+    if (app.get_option(flag)->count() == 0) {
+      continue;
+    }
+    if (asked.model == albedo::Model::Physical) {
+      throw UsageError(std::string(flag) + ": " + model + " has no sheen");
+    }
+    if (differs) {
+      throw UsageError(std::string(flag) + ": " + model + " has the visibility ashikhmin and the albedo scaling none");
+    }
+  }
 }
 
 /// How far an image that lights is sampled.
@@ -148,7 +157,8 @@ Action declare_render(CLI::App& app) {
   app.add_option("--exposure", options->exposure, "EV: the radiance written is multiplied by 2^EV")
       ->check(CLI::Range(-100.0, 100.0))
       ->capture_default_str();
-  return [options] {
+  return [options, &app] {
+    resolve_model(app, *options);
     check_shader(*options);
     if (!std::isfinite(options->exposure)) {
       throw UsageError("--exposure: must be a finite number");
@@ -163,7 +173,10 @@ Action declare_golden(CLI::App& app) {
   add_path(app, "-o,--output", options->output, ".exr (with the channels bound.R, bound.G, bound.B and excluded), .hdr, .pfm or .png")
       ->required();
   add_sampling(app, *options);
-  return [options] { return golden(*options); };
+  return [options, &app] {
+    resolve_model(app, *options);
+    return golden(*options);
+  };
 }
 
 Action declare_compare(CLI::App& app) {
@@ -218,7 +231,8 @@ Action declare_explain(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   add_scene(app, *options);
   add_shader(app, *options);
-  return [options] {
+  return [options, &app] {
+    resolve_model(app, *options);
     check_shader(*options);
     return explain(*options);
   };

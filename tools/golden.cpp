@@ -59,6 +59,7 @@ int golden(const GoldenOptions& options) {
                                                                             : extension_of(options.output) == ".png"
                                                                                 ? std::vector<std::string>{"R", "G", "B", "A"}
                                                                                 : std::vector<std::string>{"R", "G", "B"}},
+                                                               {"model", word_of(model_words, options.sheen.model)},
                                                                {"visibility", word_of(visibility_words, options.sheen.visibility)},
                                                                {"albedo_scaling", word_of(albedo_scaling_words, options.sheen.scaling)},
                                                                {"formula_version", golden::formula_version},

@@ -27,6 +27,7 @@ nlohmann::ordered_json describe(const RenderOptions& options, const gles::Contex
   return {{"output", options.output.string()},
           {"width", options.view.width},
           {"height", options.view.height},
+          {"model", word_of(model_words, options.sheen.model)},
           {"visibility", word_of(visibility_words, options.sheen.visibility)},
           {"albedo_scaling", word_of(albedo_scaling_words, options.sheen.scaling)},
           {"precision", word_of(precision_words, options.precision)},

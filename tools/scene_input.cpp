@@ -51,6 +51,22 @@ Tolerance parse_tolerance(const std::string& text) {
   return {(*numbers)[0], (*numbers)[1]};
 }
 
+namespace {
+
+/// --model physical is the base layer alone: says of which materials a layer is not drawn.
+void note_left_out(const scene::Scene& scene) {
+  for (const scene::Material& material : scene.materials) {
+    const bool sheen = material.sheen.enabled();
+    const bool clearcoat = material.clearcoat.enabled();
+    if (sheen || clearcoat) {
+      std::cerr << "note: material '" << scene::legible(material.name) << "': --model physical leaves out its "
+                << (sheen ? clearcoat ? "sheen and clearcoat" : "sheen" : "clearcoat") << '\n';
+    }
+  }
+}
+
+}  // namespace
+
 scene::Scene load_scene(const SceneOptions& options) {
   scene::Scene scene = scene::load_gltf(options.scene);
   for (const std::string& warning : scene.warnings) {
@@ -58,6 +74,9 @@ scene::Scene load_scene(const SceneOptions& options) {
   }
   if (!options.lights.empty()) {
     scene.lights = options.lights;
+  }
+  if (options.sheen.model == albedo::Model::Physical) {
+    note_left_out(scene);
   }
   return scene;
 }

@@ -16,7 +16,8 @@ scene::Light parse_light(const std::string& text);
 /// Two numbers "REL,ABS", both finite and >= 0. Throws UsageError.
 Tolerance parse_tolerance(const std::string& text);
 
-/// Loads the scene and puts the lights of --light in place of its own. Warnings of the loader go to stderr. Throws scene::Error.
+/// Loads the scene and puts the lights of --light in place of its own. Warnings of the loader, and which layers the model leaves out, go to
+/// stderr. Throws scene::Error.
 scene::Scene load_scene(const SceneOptions& options);
 
 /// What --environment, --environment-rotation and --background describe: "uniform:R,G,B" or an equirect .hdr or .exr. Without them none, or

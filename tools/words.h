@@ -28,6 +28,9 @@ inline constexpr std::array albedo_scaling_words{Word<albedo::AlbedoScaling>{"fu
                                                  Word<albedo::AlbedoScaling>{"view", albedo::AlbedoScaling::View},
                                                  Word<albedo::AlbedoScaling>{"none", albedo::AlbedoScaling::None},
                                                  Word<albedo::AlbedoScaling>{"literal", albedo::AlbedoScaling::Literal}};
+inline constexpr std::array model_words{Word<albedo::Model>{"ratified", albedo::Model::Ratified},
+                                        Word<albedo::Model>{"draft-2019", albedo::Model::Draft2019},
+                                        Word<albedo::Model>{"physical", albedo::Model::Physical}};
 inline constexpr std::array context_words{Word<gles::ContextKind>{"osmesa", gles::ContextKind::OsMesa},
                                           Word<gles::ContextKind>{"egl", gles::ContextKind::Egl}};
 inline constexpr std::array precision_words{Word<renderer::Precision>{"highp", renderer::Precision::Highp},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "albedo/chebyshev.h"
 #include "albedo/coordinates.h"
 #include "albedo/directional_albedo.h"
 
@@ -17,43 +18,11 @@ constexpr int patches_x = Curve::patches;
 constexpr int patches_y = 18;            // down to r = 3.4e-6, where E is negligible for every mu >= min_n_dot_v
 constexpr double accepted_error = 3e-7;  // of E, relative or absolute, whichever is less
 
-using Nodes = std::array<double, nodes>;
+using Rule1D = Chebyshev<nodes>;
+using Nodes = Rule1D::Nodes;
 
-// Chebyshev nodes of the first kind on [-1, 1] and their barycentric weights (Berrut and Trefethen 2004, section 5.3).
-struct Chebyshev {
-  Nodes node, weight;
-  Chebyshev() {
-    for (int i = 0; i < nodes; ++i) {
-      const double angle = brdf::pi * (i + 0.5) / nodes;
-      node[i] = std::cos(angle);
-      weight[i] = (i % 2 == 0 ? 1 : -1) * std::sin(angle);
-    }
-  }
-
-  // The share each node's value has at t: weights that sum to 1.
-  Nodes shares(double t) const {
-    Nodes s;
-    double sum = 0;
-    for (int i = 0; i < nodes; ++i) {
-      const double distance = t - node[i];
-      if (distance == 0) {
-        s.fill(0);
-        s[i] = 1;
-        return s;
-      }
-      s[i] = weight[i] / distance;
-      sum += s[i];
-    }
-    for (double& v : s) {
-      v /= sum;
-    }
-    return s;
-  }
-};
-
-const Chebyshev& chebyshev() {
-  static const Chebyshev c;
-  return c;
+const Rule1D& chebyshev() {
+  return Rule1D::instance();
 }
 
 // From values at the nodes to the coefficients of the powers of t: the Chebyshev coefficients by their discrete orthogonality, then

@@ -4,10 +4,10 @@
 #include <cmath>
 
 namespace sheen::albedo {
-namespace {
 
 // Zeros of the Legendre polynomial P_n by Newton's method from Tricomi's estimate, mapped to [0, 1].
-void gauss_legendre(int n, std::vector<double>& nodes, std::vector<double>& weights) {
+GaussLegendre::GaussLegendre(int count) {
+  const int n = count;
   for (int i = 0; i < n; ++i) {
     double x = std::cos(brdf::pi * (i + 0.75) / (n + 0.5));
     double derivative = 0;
@@ -21,12 +21,10 @@ void gauss_legendre(int n, std::vector<double>& nodes, std::vector<double>& weig
       derivative = n * (x * p0 - p1) / (x * x - 1);
       x -= p0 / derivative;
     }
-    nodes.push_back((1 - x) / 2);
-    weights.push_back(1 / ((1 - x * x) * derivative * derivative));
+    node.push_back((1 - x) / 2);
+    weight.push_back(1 / ((1 - x * x) * derivative * derivative));
   }
 }
-
-}  // namespace
 
 // Tanh-sinh: Takahasi and Mori 1974.
 Rule make_rule(int lambda_nodes, double reach, int azimuth_nodes, int crowding) {
@@ -41,8 +39,7 @@ Rule make_rule(int lambda_nodes, double reach, int azimuth_nodes, int crowding) 
     rule.right.push_back(right);
     rule.weight.push_back(step * brdf::pi * std::cosh(t) * left * right);
   }
-  std::vector<double> x, w;
-  gauss_legendre(azimuth_nodes, x, w);
+  const auto [x, w] = GaussLegendre(azimuth_nodes);
   for (int j = 0; j < azimuth_nodes; ++j) {
     double power = x[j];  // x^(crowding - 1)
     for (int k = 2; k < crowding; ++k) {

@@ -22,6 +22,12 @@
 
 namespace sheen::albedo {
 
+/// Gauss-Legendre over [0, 1]: exact for polynomials of degree 2 count - 1.
+struct GaussLegendre {
+  std::vector<double> node, weight;
+  explicit GaussLegendre(int count);
+};
+
 /// Nodes of both one-dimensional rules for one size of p.
 struct Rule {
   // Tanh-sinh over a panel [a, b]: node a + (b-a) left, or b - (b-a) right: whichever is the nearer end, so that no digits are lost.

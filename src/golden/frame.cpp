@@ -19,9 +19,10 @@ Frame::Frame(const scene::Scene& scene_in, const Settings& settings_in)
       settings(settings_in),
       rays(make_rays(scene_in, settings_in.view)),
       geometry(scene_in),
-      reader(scene_in, geometry, rays, settings_in.environment != nullptr),
+      reader(scene_in, geometry, rays, settings_in.environment != nullptr, settings_in.sheen.model),
       tracer(scene_in, geometry, reader, rays),
-      lights(prepare_lights(scene_in.lights)) {
+      lights(prepare_lights(scene_in.lights)),
+      model(albedo::resolved(settings_in.sheen)) {
   const bool has_sheen = std::any_of(scene.instances.begin(), scene.instances.end(), [&](const scene::Instance& instance) {
     return reader.layers(scene.primitives[static_cast<std::size_t>(instance.primitive)].material).sheen;
   });
@@ -30,12 +31,22 @@ Frame::Frame(const scene::Scene& scene_in, const Settings& settings_in)
     directions.emplace(*environment, settings.sampling.seed);
   }
   if (has_sheen) {
-    albedo.emplace(settings.sheen.visibility);
+    albedo.emplace(model.visibility);
+  }
+  if (model.model == albedo::Model::Physical) {
+    ggx.emplace();
   }
 }
 
 Lighting Frame::lighting(const TermFactors& factors) const {
-  return {lights.data(), lights.size(), settings.sheen, albedo ? &*albedo : nullptr, factors};
+  Lighting lighting;
+  lighting.lights = lights.data();
+  lighting.light_count = lights.size();
+  lighting.sheen = model;
+  lighting.albedo = albedo ? &*albedo : nullptr;
+  lighting.factors = factors;
+  lighting.ggx = ggx ? &*ggx : nullptr;
+  return lighting;
 }
 
 }  // namespace sheen::golden

@@ -33,7 +33,9 @@ struct Frame {
   std::vector<PreparedLight> lights;
   std::optional<EnvironmentLight> environment;  ///< only if it is an image
   std::optional<DirectionPool> directions;      ///< likewise
+  albedo::SheenModel model;                     ///< resolved
   std::optional<albedo::Interpolant> albedo;    ///< only if a material in use has sheen
+  std::optional<albedo::GgxInterpolant> ggx;    ///< only for the physical model
 };
 
 }  // namespace sheen::golden

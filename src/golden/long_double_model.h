@@ -127,8 +127,18 @@ inline Real arriving(const scene::Light& light, const Vector& position, Vector& 
   return e;
 }
 
-/// Outgoing radiance for a material without textures.
+/// Sheen of the draft of 2019, "The full layer would then be" and the code after it, with sheenFactor 1: its factor on D V.
+inline Real draft_factor(const scene::Material& m) {
+  Real reflectance = 0;
+  for (int i = 0; i < 3; ++i) {
+    reflectance = std::max(reflectance, mix(0.04L, m.base_color_factor[i], m.metallic_factor));
+  }
+  return (1 - reflectance) * pi_l;
+}
+
+/// Outgoing radiance for a material without textures, by the ratified text or its draft.
 inline Vector radiance(const Point& p, const scene::Material& m, const std::vector<scene::Light>& lights, albedo::SheenModel model) {
+  const bool draft = model.model == albedo::Model::Draft2019;
   Real n_dot_v = 0;
   Real nc_dot_v = 0;
   const Vector v = lobe_view(p.n, p.v, n_dot_v);
@@ -153,7 +163,7 @@ inline Vector radiance(const Point& p, const scene::Material& m, const std::vect
       const Real n_dot_h = dot(p.n, h);
       const Real w = pow5(1 - std::abs(dot(v, h)));
       Real s = 1;
-      if (c > 0) {
+      if (c > 0 && !draft) {
         const Real view = 1 - c * e(n_dot_v);
         const Real full = std::min(view, 1 - c * e(n_dot_l));
         switch (model.scaling) {
@@ -172,7 +182,8 @@ inline Vector radiance(const Point& p, const scene::Material& m, const std::vect
         }
       }
       const Real lobe = ggx(alpha, n_dot_l, n_dot_v, n_dot_h);
-      const Real sheen = sheen_brdf(n_dot_l, n_dot_v, n_dot_h, m.sheen.roughness_factor, model.visibility);
+      const Real sheen = draft ? draft_factor(m) * sheen_brdf(n_dot_l, n_dot_v, n_dot_h, m.roughness_factor, albedo::Visibility::Ashikhmin)
+                               : sheen_brdf(n_dot_l, n_dot_v, n_dot_h, m.sheen.roughness_factor, model.visibility);
       Real fr[3];
       for (int i = 0; i < 3; ++i) {
         const Real f0 = std::min<Real>(f0_ior * m.specular.color_factor[i], 1);

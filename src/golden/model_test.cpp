@@ -132,6 +132,43 @@ TEST(Model, ViewIsMirroredWhereTheNormalLooksAway) {
   EXPECT_EQ(im.at(5, 5, im.channel("mirrored")), 0.0f);
 }
 
+// Whatever visibility and scaling are asked for besides, and whatever the sheen's own roughness: the draft has none of them.
+TEST(Model, SheenOfTheDraftOf2019MeetsTheLongDoubleEvaluation) {
+  for (const double roughness : {0.15, 0.4, 1.0}) {
+    for (const double metallic : {0.0, 0.6, 1.0}) {
+      scene::Material m = velvet(0.5);
+      m.metallic_factor = metallic;
+      m.roughness_factor = roughness;
+      m.clearcoat.factor = 0.6;
+      m.clearcoat.roughness_factor = 0.3;
+      m.emissive_factor = {0.1, 0.5, 2.0};
+      const scene::Scene s = test::scene_with(test::square(2.0, 0.0, 1.0), m, test::camera_at(2.0, 1.2), three_lights());
+      Settings settings = test::settings_for(9, 9);
+      settings.sheen.model = albedo::Model::Draft2019;
+      EXPECT_LT(worst_error(s, settings, 1.0), tolerance) << "roughness " << roughness << " metallic " << metallic;
+      const image::Image draft = render(s, settings);
+      settings.sheen = {albedo::Visibility::Refined, albedo::AlbedoScaling::View, albedo::Model::Draft2019};
+      EXPECT_EQ(render(s, settings).data, draft.data);
+    }
+  }
+}
+
+// Seen along the normal, E of Ashikhmin's lobe is 2^-(p+1) / (p + 2) with p = 1 / (2 r^2); a Lambertian base keeps all its light.
+TEST(Model, UniformLightOnTheDraftsSheenHasAClosedForm) {
+  scene::Material m = test::lambertian({0.6, 0.3, 0.1, 1.0});
+  m.roughness_factor = 0.5;
+  m.sheen.color_factor = {0.9, 0.7, 0.4};
+  m.sheen.roughness_factor = 0.1;
+  const scene::Scene s = test::scene_with(test::square(2.0), m, test::orthographic_at(5.0, 1.0), {});
+  scene::Environment white;
+  white.uniform = {1.0, 1.0, 1.0};
+  Settings settings = test::settings_for(3, 3);
+  settings.environment = &white;
+  settings.sheen.model = albedo::Model::Draft2019;
+  const double e = std::exp2(-3.0) / 4.0;
+  EXPECT_NEAR(render(s, settings).at(1, 1, 0), 0.6 + 0.9 * 0.96 * brdf::pi * e, 1e-6);
+}
+
 TEST(Model, OrthographicCameraSeesAlongItsAxis) {
   const scene::Scene s = test::scene_with(test::square(2.0, 0.0, 1.0), velvet(0.5), test::orthographic_at(5.0, 1.0), three_lights());
   EXPECT_LT(worst_error(s, test::settings_for(12, 8), 1.0), tolerance);

@@ -5,8 +5,10 @@
 #include <type_traits>
 
 #include "albedo/curve.h"
+#include "albedo/ggx_interpolant.h"
 #include "albedo/interpolant.h"
 #include "brdf/clearcoat.h"
+#include "brdf/physical_base.h"
 #include "brdf/sheen.h"
 #include "golden/golden.h"
 #include "golden/lights.h"
@@ -25,6 +27,7 @@ struct Lighting {
   /// One surface under many lights: E at its roughness, and these, one a lane, instead of `lights`.
   const albedo::Curve* curve = nullptr;
   const DistantLights* distant = nullptr;
+  const albedo::GgxInterpolant* ggx = nullptr;  ///< of the physical model alone, which it makes the base follow
 };
 
 /// Radiance of a surface, and what the approximations the texts grant a shader may change in it.
@@ -110,6 +113,29 @@ Real directional_albedo(const albedo::Interpolant& albedo, const Real& cosine, c
   return number::Lanes<Real>::load(c);
 }
 
+/// Albedo of the GGX lobe for every lane: at a cosine, or averaged over the hemisphere.
+template <class Real, class Read>
+brdf::LobeAlbedo<Real> ggx_albedo(const Read& read, const Real& cosine, const Real& alpha) {
+  using Lanes = number::Lanes<Real>;
+  double c[Lanes::count];
+  double a[Lanes::count];
+  Lanes::store(c, cosine);
+  Lanes::store(a, alpha);
+  for (std::size_t i = 0; i < Lanes::count; ++i) {
+    const albedo::GgxAlbedo of = read(c[i], a[i]);
+    c[i] = of.loss;
+    a[i] = of.bias;
+  }
+  return {Lanes::load(c), Lanes::load(a)};
+}
+
+/// The base of the physical model at one point, with what does not depend on the light found once.
+template <class Real>
+brdf::PhysicalBase<Real> physical_base(const brdf::Base<Real>& base, const Real& n_dot_v, const albedo::GgxInterpolant& ggx) {
+  const auto average = [&ggx](double, double alpha) { return ggx.average(alpha); };
+  return {base, ggx_albedo(ggx, n_dot_v, base.alpha), ggx_albedo(average, n_dot_v, base.alpha)};
+}
+
 template <class Mask, class Real>
 brdf::Rgb<Real> keep_where(const Mask& mask, const brdf::Rgb<Real>& c) {
   using brdf::select;
@@ -191,6 +217,11 @@ Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& 
     sheen.emplace(surface, lobe, lighting);
   }
 
+  std::optional<brdf::PhysicalBase<Real>> physical;
+  if (lighting.ggx != nullptr) {
+    physical.emplace(physical_base(surface.base, lobe.n_dot_v, *lighting.ggx));
+  }
+
   const Color emission = surface.emission * (below * Real(factors.emission));
   listener.view(ViewPart<Real>{lobe.n_dot_v, sheen ? sheen->e_v() : Real(0), k, emission});
   Shaded<Real> out{emission, absolute(emission), zero, max(lobe.mirrored, coat.mirrored)};
@@ -205,8 +236,10 @@ Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& 
     const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
     const HalfAngles<Real> half(lobe, light.direction);
     part.n_dot_h = half.n_dot_h;
-    const Color base =
-        brdf::base_brdf(surface.base, n_dot_l, lobe.n_dot_v, half.n_dot_h, half.sin2_theta_h, half.v_dot_h) * Real(factors.base);
+    const Color base = (physical ? physical->brdf(ggx_albedo(*lighting.ggx, n_dot_l, surface.base.alpha), n_dot_l, lobe.n_dot_v,
+                                                  half.n_dot_h, half.sin2_theta_h, half.v_dot_h)
+                                 : brdf::base_brdf(surface.base, n_dot_l, lobe.n_dot_v, half.n_dot_h, half.sin2_theta_h, half.v_dot_h)) *
+                       Real(factors.base);
     const Color irradiance_below = light.irradiance * below;
     if (sheen) {
       const bool needs_e_l = sheen->two_directions() || std::remove_cvref_t<Listener>::wants_e_l;

@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "brdf/draft_sheen.h"
+
 namespace sheen::golden {
 namespace {
 
@@ -54,8 +56,9 @@ std::vector<double> levels_within(const LodInterval& range) {
   return levels;
 }
 
-SurfaceReader::SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment)
-    : geometry_(geometry), rays_(rays), materials_(scene.materials.size()) {
+SurfaceReader::SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment,
+                             brdf::Model model)
+    : geometry_(geometry), rays_(rays), model_(model), materials_(scene.materials.size()) {
   TextureStore store(scene);
   std::vector<bool> used(scene.materials.size(), false);
   for (const scene::Instance& instance : scene.instances) {
@@ -73,7 +76,9 @@ void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store
   const scene::Material& source = scene.materials[static_cast<std::size_t>(index)];
   Material& m = materials_[static_cast<std::size_t>(index)];
   m.source = &source;
-  m.layers = {source.sheen.enabled(), source.clearcoat.enabled()};
+  if (model_ != brdf::Model::Physical) {
+    m.layers = {source.sheen.enabled(), source.clearcoat.enabled()};
+  }
   const auto slot = [&](const scene::TextureInfo& info, ColorSpace space) {
     Slot s;
     if (!info.present()) {
@@ -99,7 +104,9 @@ void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store
   m.specular_color = slot(source.specular.color_texture, ColorSpace::Srgb);
   if (m.layers.sheen) {
     m.sheen_color = slot(source.sheen.color_texture, ColorSpace::Srgb);
-    m.sheen_roughness = slot(source.sheen.roughness_texture, ColorSpace::Linear);
+    if (model_ == brdf::Model::Ratified) {
+      m.sheen_roughness = slot(source.sheen.roughness_texture, ColorSpace::Linear);
+    }
   }
   if (m.layers.clearcoat) {
     m.clearcoat = slot(source.clearcoat.factor_texture, ColorSpace::Linear);
@@ -303,6 +310,10 @@ Surface<double> SurfaceReader::surface(const Hit& hit, const Ray& ray, LodChoice
   if (m.layers.sheen) {
     s.sheen_color = rgb(source.sheen.color_factor * glm::dvec3(read(m.sheen_color, hit, f)));
     s.sheen_roughness = source.sheen.roughness_factor * read(m.sheen_roughness, hit, f).w;
+    if (model_ == brdf::Model::Draft2019) {
+      s.sheen_color = brdf::draft_sheen_color(s.sheen_color, s.base.color, s.base.metallic);
+      s.sheen_roughness = source.roughness_factor * metallic_roughness.y;
+    }
   }
   if (m.layers.clearcoat) {
     s.clearcoat = source.clearcoat.factor * read(m.clearcoat, hit, f).x;

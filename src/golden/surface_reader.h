@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "brdf/model.h"
 #include "golden/geometry.h"
 #include "golden/rays.h"
 #include "golden/surface.h"
@@ -30,9 +31,9 @@ std::vector<double> levels_within(const LodInterval& range);
 /// Reads materials: everything between a hit and its shading.
 class SurfaceReader {
  public:
-  /// Decodes every texture that a material in use reads: occlusion only for environment light. The references must outlive this. Throws
-  /// scene::Error.
-  SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment);
+  /// Decodes every texture that a material in use reads under that model: occlusion only for environment light. The references must outlive
+  /// this. Throws scene::Error.
+  SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment, brdf::Model model);
 
   Layers layers(int material) const { return materials_[static_cast<std::size_t>(material)].layers; }
   /// Whether a material's textures depend on the level of detail; else LodChoice changes nothing.
@@ -79,6 +80,7 @@ class SurfaceReader {
 
   const Geometry& geometry_;
   const RayGenerator& rays_;
+  brdf::Model model_;
   std::vector<Material> materials_;
 };
 

@@ -86,7 +86,8 @@ BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<d
   breaks.insert(breaks.end(), kinks.begin(), kinks.end());
   // A change of the half vector by alpha moves N.L by about this.
   const double width = 2 * alpha * (std::sqrt((1 - mu) * (1 + mu)) + alpha);
-  for (const double widths : {-30.0, -3.0, 3.0, 30.0}) {
+  // Beyond, the lobe falls like a power: at most two decades to a panel.
+  for (const double widths : {-3e7, -3e5, -3e3, -30.0, -3.0, 3.0, 30.0, 3e3, 3e5, 3e7}) {
     const double at = mu + widths * width;
     if (at > 0 && at < 1) {
       breaks.push_back(at);
@@ -181,7 +182,10 @@ Shaded<double> shade_uniform(const Surface<double>& surface, Layers layers, cons
   } else {
     base = base_integrals(surface.base.alpha, lobe.n_dot_v, one);
   }
-  const Color under = (base_light(surface.base, base) * factors.base) * light * (1 - k);
+  const Color reflected = lighting.ggx != nullptr
+                              ? physical_base(surface.base, lobe.n_dot_v, *lighting.ggx).light(base.specular, base.specular_w)
+                              : base_light(surface.base, base);
+  const Color under = (reflected * factors.base) * light * (1 - k);
   const Color cloth = sheen_light * light * (1 - k);
   const double coat_light = layers.clearcoat ? k * factors.coat_lobe * base_integrals(surface.coat_alpha, coat.n_dot_v, one).specular : 0.0;
   const Color zero{0, 0, 0};

@@ -67,6 +67,10 @@ TEST(BaseIntegrals, KnowClosedForms) {
   EXPECT_EQ(base_integrals(0.0, 0.6, one).specular, 1.0);
   EXPECT_NEAR(base_integrals(1e-4, 0.6, one).specular, 1.0, 1e-6);
   EXPECT_NEAR(base_integrals(1e-4, 0.6, one).specular_w, std::pow(0.4, 5.0), 1e-6);
+  // Of a smooth lobe seen from above next to nothing is lost, however long its tail.
+  for (const double alpha : {1e-5, 1e-4, 3e-4}) {
+    EXPECT_NEAR(base_integrals(alpha, 1.0, one).specular, 1.0, 1e-6) << alpha;
+  }
   // Single scattering loses energy but makes none.
   for (const double mu : {1e-4, 1e-3, 0.01, 0.1, 0.5, 1.0}) {
     for (const double alpha : {1e-6, 1e-3, 0.03, 0.3, 1.0}) {

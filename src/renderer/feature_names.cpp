@@ -19,8 +19,10 @@ const std::vector<std::string>& feature_names() {
                                  "environment_sampled",
                                  "background",
                                  "base",
+                                 "multiple_scattering",
                                  "specular",
                                  "sheen",
+                                 "sheen_draft_2019",
                                  "sheen_visibility_charlie",
                                  "sheen_visibility_ashikhmin",
                                  "sheen_visibility_refined",
@@ -53,6 +55,9 @@ std::vector<std::string> texture_units(const std::vector<ShaderPlan>& plans) {
   }
   if (any([](const ShaderPlan& plan) { return plan.sheen_albedo_table; })) {
     units.emplace_back("sheen_albedo");
+  }
+  if (any([](const ShaderPlan& plan) { return plan.ggx_albedo_table; })) {
+    units.emplace_back("ggx_albedo");
   }
   if (any([](const ShaderPlan& plan) { return plan.light_texture; })) {
     units.emplace_back("lights");

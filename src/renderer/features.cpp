@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "renderer/feature_words.h"
 #include "renderer/texture_slots.h"
 
 namespace sheen::renderer {
@@ -14,37 +15,6 @@ namespace {
 using scene::LightType;
 using scene::Material;
 using scene::TextureInfo;
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
-const char* visibility_name(albedo::Visibility visibility) {
-  switch (visibility) {
-    case albedo::Visibility::Charlie:
-      return "charlie";
-    case albedo::Visibility::Ashikhmin:
-      return "ashikhmin";
-    case albedo::Visibility::Refined:
-      return "refined";
-  }
-  throw std::invalid_argument("unknown visibility");
-}
-
-const char* scaling_name(albedo::AlbedoScaling scaling) {
-  switch (scaling) {
-    case albedo::AlbedoScaling::Full:
-      return "full";
-    case albedo::AlbedoScaling::View:
-      return "view";
-    case albedo::AlbedoScaling::None:
-      return "none";
-    case albedo::AlbedoScaling::Literal:
-      return "literal";
-  }
-  throw std::invalid_argument("unknown albedo scaling");
-}
 
 /// Makes a plan step by step.
 class Planner {
@@ -55,11 +25,13 @@ class Planner {
         material_(scene.materials.at(static_cast<std::size_t>(primitive.material))),
         settings_(settings),
         punctual_(!scene.lights.empty()),
+        sheen_model_(albedo::resolved(settings.sheen)),
+        physical_(sheen_model_.model == albedo::Model::Physical),
         // Without a light nothing is reflected: what is left is the emission under its coat, and coverage.
         lit_(punctual_ || settings.environment != nullptr),
         emission_(material_.emissive_factor != glm::dvec3(0.0)),
-        sheen_(lit_ && material_.sheen.enabled()),
-        clearcoat_((lit_ || emission_) && material_.clearcoat.enabled()),
+        sheen_(lit_ && !physical_ && material_.sheen.enabled()),
+        clearcoat_((lit_ || emission_) && !physical_ && material_.clearcoat.enabled()),
         base_color_(lit_ || material_.alpha_mode != scene::AlphaMode::Opaque) {
     plan_.normals = lit_ || clearcoat_;
     constants();
@@ -140,8 +112,11 @@ class Planner {
     if (name == "specular_texture" || name == "specular_color_texture") {
       return lit_ && material_.has_ior_or_specular;
     }
-    if (name == "sheen_color_texture" || name == "sheen_roughness_texture") {
+    if (name == "sheen_color_texture") {
       return sheen_;
+    }
+    if (name == "sheen_roughness_texture") {
+      return sheen_ && !draft();
     }
     if (name == "clearcoat_texture" || name == "clearcoat_normal_texture") {
       return clearcoat_;
@@ -239,6 +214,12 @@ class Planner {
       define("BASE_COLOR");
       uniform("u_base_color_factor");
     }
+    if (lit_ && physical_) {
+      feature("multiple_scattering");
+      define("BASE_PHYSICAL");
+      plan_.ggx_albedo_table = true;
+      uniform("u_ggx_albedo");
+    }
     if (lit_) {
       feature("base");
       uniform("u_metallic_factor");
@@ -275,8 +256,10 @@ class Planner {
     }
   }
 
+  bool draft() const { return sheen_model_.model == albedo::Model::Draft2019; }
+
   void sheen() {
-    const std::string visibility = visibility_name(settings_.sheen.visibility);
+    const std::string visibility = visibility_name(sheen_model_.visibility);
     feature("sheen");
     feature("sheen_visibility_" + visibility);
     define("SHEEN");
@@ -286,9 +269,14 @@ class Planner {
       define("SMALLEST_SHEEN_ROUGHNESS=3.0e-5");
     }
     uniform("u_sheen_color_factor");
-    uniform("u_sheen_roughness_factor");
-    define("ALBEDO_SCALING_" + upper(scaling_name(settings_.sheen.scaling)));
-    const bool scaled = settings_.sheen.scaling != albedo::AlbedoScaling::None;
+    if (draft()) {
+      feature("sheen_draft_2019");
+      define("SHEEN_DRAFT_2019");
+    } else {
+      uniform("u_sheen_roughness_factor");
+    }
+    define("ALBEDO_SCALING_" + upper(scaling_name(sheen_model_.scaling)));
+    const bool scaled = sheen_model_.scaling != albedo::AlbedoScaling::None;
     if (scaled) {
       feature("albedo_scaling");
     } else if (!settings_.prefiltered()) {
@@ -300,7 +288,7 @@ class Planner {
       uniform("u_sheen_albedo");
       return;
     }
-    if (settings_.sheen.visibility == albedo::Visibility::Refined) {
+    if (sheen_model_.visibility == albedo::Visibility::Refined) {
       throw std::invalid_argument("the refined visibility has no fit of its directional albedo; take the table");
     }
     feature("sheen_albedo_fit");
@@ -323,11 +311,14 @@ class Planner {
       add("fresnel.glsl", true);
     }
     if (lit_) {
+      if (physical_) {
+        add("ggx_albedo.glsl", false);
+      }
       add("specular_ggx.glsl", true);
-      add("base.glsl", true);
+      add(physical_ ? "base_physical.glsl" : "base.glsl", true);
     }
     if (sheen_) {
-      const albedo::Visibility visibility = settings_.sheen.visibility;
+      const albedo::Visibility visibility = sheen_model_.visibility;
       const std::string file = "sheen_visibility_" + std::string(visibility_name(visibility)) + ".glsl";
       add("sheen_distribution.glsl", true);
       if (visibility == albedo::Visibility::Ashikhmin) {
@@ -338,10 +329,13 @@ class Planner {
         add("sheen_lambda.glsl", true);
       }
       add("sheen.glsl", true);
-      if (settings_.sheen.scaling != albedo::AlbedoScaling::None || settings_.prefiltered()) {
+      if (draft()) {
+        add("sheen_draft_2019.glsl", true);
+      }
+      if (sheen_model_.scaling != albedo::AlbedoScaling::None || settings_.prefiltered()) {
         add(plan_.sheen_albedo_table ? "sheen_albedo.glsl" : "sheen_albedo_fit.glsl", false);
       }
-      if (settings_.sheen.scaling != albedo::AlbedoScaling::None) {
+      if (sheen_model_.scaling != albedo::AlbedoScaling::None) {
         add("albedo_scaling.glsl", false);
       }
     }
@@ -378,6 +372,8 @@ class Planner {
   const Material& material_;
   const Settings& settings_;
   bool punctual_;
+  albedo::SheenModel sheen_model_;
+  bool physical_;
   bool lit_;
   bool emission_;
   bool sheen_;

@@ -37,6 +37,7 @@ struct ShaderPlan {
   std::vector<std::string> uniforms;  ///< every active uniform, of both stages, without samplers
   std::vector<TextureUse> textures;
   bool sheen_albedo_table = false;  ///< reads u_sheen_albedo
+  bool ggx_albedo_table = false;    ///< reads u_ggx_albedo
   bool light_texture = false;       ///< reads the lights from a texture
   bool split_sum_table = false;     ///< reads u_split_sum
   bool environment_image = false;   ///< reads u_environment

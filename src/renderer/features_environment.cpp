@@ -26,13 +26,17 @@ void plan_environment(const Settings& settings, bool sheen, ShaderPlan& plan) {
   plan.features.emplace_back(settings.environment->is_image() ? "environment_image" : "environment_uniform");
   plan.features.emplace_back(settings.prefiltered() ? "environment_prefiltered" : "environment_sampled");
   plan_radiance(*settings.environment, plan);
+  const albedo::SheenModel model = albedo::resolved(settings.sheen);
   if (settings.prefiltered()) {
-    plan.split_sum_table = true;
-    plan.uniforms.emplace_back("u_split_sum");
+    // The physical base has sums of its own, and no coat.
+    if (model.model != albedo::Model::Physical) {
+      plan.split_sum_table = true;
+      plan.uniforms.emplace_back("u_split_sum");
+    }
     if (plan.environment_image) {
       plan.kernels = {Kernel::Diffuse, Kernel::Ggx};
       if (sheen) {
-        plan.kernels.push_back(sheen_kernel(settings.sheen.visibility));
+        plan.kernels.push_back(sheen_kernel(model.visibility));
       }
     }
     return;

@@ -43,6 +43,13 @@ struct Resources {
     return found->second.name();
   }
 
+  GLuint ggx_table() {
+    if (!ggx) {
+      ggx.emplace(upload_table(context.gl(), albedo::build_ggx_table()));
+    }
+    return ggx->name();
+  }
+
   const Target& target_of(int width, int height) {
     if (!target || target->width() != width || target->height() != height) {
       target.reset();
@@ -54,6 +61,7 @@ struct Resources {
   gles::Context& context;
   std::map<std::string, Program> programs;
   std::map<albedo::Visibility, gles::Texture> tables;
+  std::optional<gles::Texture> ggx;
   std::optional<Target> target;
   EnvironmentMaps environments;
 };
@@ -239,6 +247,7 @@ class SceneDraw {
       textures.push_back(pictures_.texture(scene_, use));
     }
     const GLuint table = drawable.plan.sheen_albedo_table ? resources_.table(settings_.sheen.visibility) : 0;
+    const GLuint ggx_table = drawable.plan.ggx_albedo_table ? resources_.ggx_table() : 0;
     for (std::size_t i = 0; i < textures.size(); ++i) {
       const TextureUse& use = drawable.plan.textures[i];
       bind(program, use.name, textures[i]);
@@ -248,6 +257,9 @@ class SceneDraw {
     }
     if (table != 0) {
       bind(program, "sheen_albedo", table);
+    }
+    if (ggx_table != 0) {
+      bind(program, "ggx_albedo", ggx_table);
     }
     set_environment(program, drawable.plan);
     program.set("u_light_count", static_cast<int>(scene_.lights.size()));

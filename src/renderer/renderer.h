@@ -38,7 +38,7 @@ struct Settings {
 struct Requirements {
   std::vector<std::string> features;       ///< "sheen", "clearcoat", "normal_map", ...
   std::vector<std::string> defines;        ///< every macro any of the scene's shaders is compiled with
-  std::vector<std::string> tables;         ///< "sheen_albedo:charlie"
+  std::vector<std::string> tables;         ///< "sheen_albedo:charlie", "ggx_albedo"
   std::vector<std::string> uniforms;       ///< active uniforms
   std::vector<std::string> texture_units;  ///< "0: base_color_texture"
   std::vector<std::string> omitted;        ///< features the renderer knows and this scene does not use

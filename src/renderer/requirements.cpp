@@ -59,6 +59,8 @@ Requirements requirements(const scene::Scene& scene, const Settings& settings) {
     needed.texture_units.push_back(std::to_string(unit) + ": " + units[unit]);
     if (units[unit] == "sheen_albedo") {
       needed.tables.emplace_back(table_name(settings.sheen.visibility));
+    } else if (units[unit] == "ggx_albedo") {
+      needed.tables.emplace_back("ggx_albedo");
     }
     if (units[unit] == "split_sum") {
       needed.tables.emplace_back("split_sum:ggx");

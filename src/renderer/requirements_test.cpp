@@ -107,6 +107,15 @@ std::vector<Settings> every_setting() {
       }
     }
   }
+  for (const albedo::Model model : {albedo::Model::Draft2019, albedo::Model::Physical}) {
+    for (const Formulation formulation : {Formulation::Literal, Formulation::Stable}) {
+      Settings settings;
+      settings.sheen.model = model;
+      settings.formulation = formulation;
+      settings.precision = formulation == Formulation::Stable ? Precision::Mediump : Precision::Highp;
+      all.push_back(settings);
+    }
+  }
   return all;
 }
 
@@ -152,6 +161,11 @@ TEST_F(EveryShader, CompilesForEveryFeatureAndHasTheUniformsThatRequirementsName
   Settings mediump;
   mediump.precision = Precision::Mediump;
   expect_truth(context_->gl(), everything(), mediump);
+  for (const albedo::Model model : {albedo::Model::Draft2019, albedo::Model::Physical}) {
+    Settings other;
+    other.sheen.model = model;
+    expect_truth(context_->gl(), everything(), other);
+  }
 }
 
 TEST_F(EveryShader, CompilesUnderEveryEnvironmentAndHasTheUniformsThatRequirementsNames) {
@@ -238,6 +252,37 @@ TEST(Requirements, ATableIsNeededOnlyWhereTheScalingReadsOne) {
   settings = {};
   settings.sheen.scaling = albedo::AlbedoScaling::None;
   EXPECT_TRUE(requirements(scene, settings).tables.empty());
+}
+
+TEST(Requirements, ThePhysicalModelNeedsItsTableWhereALightIsAndLeavesOutTheLayers) {
+  scene::Scene scene = everything();
+  Settings settings;
+  settings.sheen.model = albedo::Model::Physical;
+  const Requirements needed = requirements(scene, settings);
+  EXPECT_EQ(needed.tables, std::vector<std::string>{"ggx_albedo"});
+  EXPECT_TRUE(has(needed.features, "multiple_scattering"));
+  for (const char* name : {"sheen", "clearcoat", "sheen_color_texture", "sheen_roughness_texture", "clearcoat_texture"}) {
+    EXPECT_TRUE(has(needed.omitted, name)) << name;
+  }
+  EXPECT_FALSE(has(requirements(scene, {}).features, "multiple_scattering"));
+  scene.lights.clear();
+  EXPECT_TRUE(requirements(scene, settings).tables.empty());
+}
+
+TEST(Requirements, TheDraftOf2019HasOneVisibilityNoTableAndNoRoughnessOfItsOwn) {
+  const scene::Scene scene = everything();
+  Settings settings;
+  settings.sheen.model = albedo::Model::Draft2019;
+  const Requirements needed = requirements(scene, settings);
+  EXPECT_TRUE(needed.tables.empty());
+  for (const char* name : {"sheen", "sheen_draft_2019", "sheen_visibility_ashikhmin", "sheen_color_texture", "clearcoat"}) {
+    EXPECT_TRUE(has(needed.features, name)) << name;
+  }
+  for (const char* name : {"albedo_scaling", "sheen_visibility_charlie", "sheen_roughness_texture"}) {
+    EXPECT_TRUE(has(needed.omitted, name)) << name;
+  }
+  EXPECT_FALSE(has(needed.uniforms, "u_sheen_roughness_factor"));
+  EXPECT_FALSE(has(requirements(scene, {}).features, "sheen_draft_2019"));
 }
 
 TEST(Requirements, AMaterialThatNothingDrawsAsksForNothing) {

@@ -29,6 +29,17 @@ void bind_unfiltered(const gles::Functions& gl, GLuint name) {
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
+gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, GLint internal, GLenum format, int width, int height,
+                            const std::vector<float>& values) {
+  gles::Texture texture(gl);
+  check_texture_size(gl, what, width, height);
+  bind_unfiltered(gl, texture.name());
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, internal, width, height, 0, format, GL_FLOAT, values.data());
+  gles::check(gl, "uploading " + what);
+  return texture;
+}
+
 }  // namespace
 
 GLuint Pictures::texture(const scene::Scene& scene, const TextureUse& use) {
@@ -76,13 +87,11 @@ gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& wha
 }
 
 gles::Texture upload_table(const gles::Functions& gl, const albedo::Table& table) {
-  gles::Texture texture(gl);
-  check_texture_size(gl, "the table of E", table.width, table.height);
-  bind_unfiltered(gl, texture.name());
-  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, table.width, table.height, 0, GL_RED, GL_FLOAT, table.values.data());
-  gles::check(gl, "uploading the table of E");
-  return texture;
+  return upload_floats(gl, "the table of E", GL_R32F, GL_RED, table.width, table.height, table.values);
+}
+
+gles::Texture upload_table(const gles::Functions& gl, const albedo::GgxTable& table) {
+  return upload_floats(gl, "the table of the GGX lobe's albedo", GL_RG32F, GL_RG, table.width, table.height, table.values);
 }
 
 gles::Texture upload_lights(const gles::Functions& gl, std::vector<glm::vec4> vectors) {

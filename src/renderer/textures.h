@@ -7,6 +7,7 @@
 
 #include <glm/vec4.hpp>
 
+#include "albedo/ggx_table.h"
 #include "albedo/table.h"
 #include "gles/objects.h"
 #include "renderer/features.h"
@@ -37,6 +38,8 @@ gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& wha
 
 /// An R32F texture of a table of E.
 gles::Texture upload_table(const gles::Functions& gl, const albedo::Table& table);
+/// An RG32F texture of the GGX lobe's albedo.
+gles::Texture upload_table(const gles::Functions& gl, const albedo::GgxTable& table);
 
 /// The lights as a texture of 256 lights a row, four texels each.
 gles::Texture upload_lights(const gles::Functions& gl, std::vector<glm::vec4> vectors);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "albedo/ggx_albedo.h"
+
+namespace sheen::albedo {
+
+/// ggx_albedo and ggx_average_albedo for any cosine and alpha, many times faster than quadrature and within 1e-6 of it: relative for the
+/// loss, absolute for the bias. Chebyshev patches over logarithms of both, each made when first touched and held to quadrature at points
+/// between its nodes; a patch that misses is not used. Safe to call from many threads.
+class GgxInterpolant {
+ public:
+  GgxInterpolant();
+  ~GgxInterpolant();
+  GgxInterpolant(GgxInterpolant&&) noexcept;
+  GgxInterpolant& operator=(GgxInterpolant&&) noexcept;
+
+  /// ggx_albedo; cosines below min_n_dot_v count as min_n_dot_v, of light and of view alike, so that what is built of it stays reciprocal.
+  GgxAlbedo operator()(double n_dot_v, double alpha) const;
+  /// ggx_average_albedo.
+  GgxAlbedo average(double alpha) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sheen::albedo
