@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace sheen::golden {
@@ -55,7 +56,12 @@ double chi_square_p(const LobeSampling& sampling, std::size_t strategy, unsigned
   std::vector<double> drawn(cells, 0.0);
   for (int i = 0; i < n; ++i) {
     const double u = unit(generator);
-    drawn[cell_of(sampling.sample(strategy, u, unit(generator)))] += 1.0;
+    const glm::dvec3 direction = sampling.sample(strategy, u, unit(generator));
+    if (std::abs(glm::dot(direction, direction) - 1.0) > 1e-9) {
+      ADD_FAILURE() << "not a unit vector for u = " << u;
+      return 0.0;
+    }
+    drawn[cell_of(direction)] += 1.0;
   }
   const std::vector<double> shares = expected_shares(sampling, strategy);
   double chi2 = 0.0;
