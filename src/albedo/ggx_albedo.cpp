@@ -24,7 +24,8 @@
 //   integral of D dpsi = 2 alpha^2 (1 + 2 K/s + K^2 p/s^3),   s = 4 sqrt(c u(delta) u(sigma)),
 //   p = 2 (cos^2(sigma/2) u(delta) + cos^2(delta/2) u(sigma))
 //
-// tan(delta/2) = alpha sinh(x) takes the peak out. Panels end at the mirror angle and at the horizon, near which `lost` has the scale alpha.
+// tan(delta/2) = alpha sinh(x) takes the peak out. Panels end at the mirror angle and at the horizon, near which `lost` has the scale
+// alpha.
 
 namespace sheen::albedo {
 namespace {

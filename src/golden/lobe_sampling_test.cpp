@@ -61,7 +61,12 @@ double chi_square_p(const LobeSampling& sampling, Strategy strategy, unsigned se
   for (int i = 0; i < n; ++i) {
     const double u = unit(generator);
     const double angle = 2.0 * brdf::pi * unit(generator);
-    drawn[cell_of(sampler.draw(strategy, u, std::cos(angle), std::sin(angle)))] += 1.0;
+    const Vec3<double> direction = sampler.draw(strategy, u, std::cos(angle), std::sin(angle));
+    if (std::abs(dot(direction, direction) - 1.0) > 1e-9) {
+      ADD_FAILURE() << "not a unit vector for u = " << u;
+      return 0.0;
+    }
+    drawn[cell_of(direction)] += 1.0;
   }
   const std::vector<double> shares = expected_shares(sampling, strategy);
   double chi2 = 0.0;
