@@ -21,9 +21,10 @@ LobeSampling lobe_sampling(const Surface<double>& surface, Layers layers, bool s
   s.alpha = surface.base.alpha;
   s.coat_alpha = surface.coat_alpha;
   const auto draw = [&s](Strategy strategy, unsigned weight) { s.weights[index_of(strategy)] = weight; };
-  draw(Strategy::Soft, soft ? 4 : 0);
+  // Found best, by the time to 1 %, over skies with and without a sun and over rough, smooth, metal and cloth spheres; a flat optimum.
+  draw(Strategy::Soft, soft ? 8 : 0);
   draw(Strategy::Bright, bright ? 1 : 0);
-  draw(Strategy::Cosine, 2);
+  draw(Strategy::Cosine, 1);
   if (s.alpha > 0.0) {
     draw(Strategy::Ggx, 2);
   }
