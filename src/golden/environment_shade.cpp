@@ -145,7 +145,7 @@ bool EnvironmentEstimate::refine(const Surface<double>& surface, CurveCache& cur
 }
 
 Estimate EnvironmentEstimate::value() const {
-  constexpr double student = 3.586 / 3.0;  // 15 degrees of freedom
+  constexpr double student = 4.125 / 3.0;
   if (points_ == 0) {
     return {mirrored_, {0, 0, 0}};
   }

@@ -49,8 +49,9 @@ class EnvironmentEstimate {
 
   std::uint32_t directions() const { return points_ * directions_a_point_; }
 
-  /// Mean, and the standard error of each channel widened by Student's factor: that three of it hold the truth as often as three of a known
-  /// standard error would, 99.73 %, takes 3.59 of one that was found from 16 numbers.
+  /// Mean, and the standard error of each channel, widened so that three of it hold the truth of all three channels as often as three of a
+  /// known one hold a number, 99.73 %: by Student's distribution of 15 degrees of freedom that takes 4.125 of one found from 16 replicas
+  /// (Bonferroni: each channel may miss a third as often).
   Estimate value() const;
 
  private:

@@ -2,7 +2,9 @@
 
 #include "golden/environment_shade.h"
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -161,6 +163,50 @@ TEST(EnvironmentShade, AWhiteImageIsUniformLight) {
   }
 }
 
+// The sum over a fine grid of the image, each node a distant light: no directions are drawn, no densities divided by. The lamp is as wide
+// as the coat's lobe, so every strategy has a share in it, and it is seen in the coat.
+TEST(EnvironmentShade, MeetsASumOverTheWholeImage) {
+  const scene::Environment environment = image_of(16, 8, [](int x, int y) {
+    return x == 11 && y == 2 ? glm::vec3(900.0f, 700.0f, 500.0f) : glm::vec3(0.3f + 0.1f * static_cast<float>(x % 3), 0.5f, 1.0f);
+  });
+  const EnvironmentLight light(environment);
+  ASSERT_FALSE(light.bright().dark());
+  const albedo::Interpolant interpolant(albedo::Visibility::Charlie);
+  Surface<double> surface = cloth_under_lacquer(0.6);
+  surface.coat_alpha = 0.08;
+  const glm::dvec3 lamp = environment.direction({11.5 / 16, 2.5 / 8});
+  const glm::dvec3 half = glm::normalize(lamp + glm::dvec3(surface.view.x, surface.view.y, surface.view.z));
+  surface.coat_normal = {half.x, half.y, half.z};
+
+  constexpr int rows = 600;
+  constexpr int columns = 1200;
+  std::array<std::vector<double>, 6> lights;
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      const glm::dvec2 uv((j + 0.5) / columns, (i + 0.5) / rows);
+      const glm::dvec3 d = environment.direction(uv);
+      const glm::dvec3 sent = environment.radiance(d) * (2.0 * brdf::pi * brdf::pi * std::sin(brdf::pi * uv.y) / (1.0 * rows * columns));
+      for (int c = 0; c < 3; ++c) {
+        lights[static_cast<std::size_t>(c)].push_back(d[c]);
+        lights[static_cast<std::size_t>(c) + 3].push_back(sent[c]);
+      }
+    }
+  }
+  const DistantLights all{lights[0].data(), lights[1].data(), lights[2].data(), lights[3].data(), lights[4].data(), lights[5].data()};
+  CurveCache curves;
+  Lighting lighting = lighting_with(interpolant);
+  lighting.curve = curves.at(&interpolant, surface.sheen_roughness);
+  lighting.distant = &all;
+  lighting.light_count = lights[0].size();
+  const Color exact = shade(surface, {true, true}, lighting, NoListener{}).radiance;
+
+  const Estimate ours = estimate(surface, {true, true}, lighting_with(interpolant), light, {0.001, 1u << 22, 1});
+  EXPECT_LT(ours.standard_error.g, 0.001 * exact.g);
+  EXPECT_NEAR(ours.mean.r, exact.r, 3.0 * ours.standard_error.r + 2e-4 * exact.r);
+  EXPECT_NEAR(ours.mean.g, exact.g, 3.0 * ours.standard_error.g + 2e-4 * exact.g);
+  EXPECT_NEAR(ours.mean.b, exact.b, 3.0 * ours.standard_error.b + 2e-4 * exact.b);
+}
+
 TEST(EnvironmentShade, AMirrorSeesTheImageItself) {
   const scene::Environment environment = sky_with_sun();
   const EnvironmentLight light(environment);
@@ -172,7 +218,8 @@ TEST(EnvironmentShade, AMirrorSeesTheImageItself) {
   EXPECT_NEAR(ours.mean.b, seen.z, 1e-9);
 }
 
-// Of 16 numbers, widened by Student's factor, three standard errors hold 99.73 %. Every seed is held to the mean of them all.
+// Three standard errors hold all channels of 99 % of the estimates, with room for what stopping early adds. Every seed is held to the mean
+// of them all.
 TEST(EnvironmentShade, TheStandardErrorHoldsTheTruth) {
   const scene::Environment environment = sky_with_sun();
   const EnvironmentLight light(environment);
@@ -186,24 +233,24 @@ TEST(EnvironmentShade, TheStandardErrorHoldsTheTruth) {
     surface.sheen_roughness = 0.1 + 0.07 * i;
     surface.coat_alpha = i % 3 == 0 ? 0.002 : 0.04;
     std::vector<Estimate> runs;
-    double mean = 0.0;
+    Color mean{0, 0, 0};
     for (int seed = 0; seed < seeds; ++seed) {
       runs.push_back(
           estimate(surface, {true, true}, lighting_with(interpolant), light, {0.02, 1u << 18, static_cast<std::uint64_t>(seed)}));
-      mean += runs.back().mean.g / seeds;
+      mean = mean + runs.back().mean * (1.0 / seeds);
     }
     for (const Estimate& run : runs) {
-      const double off = (run.mean.g - mean) / run.standard_error.g;
-      outside += std::abs(off) > 3.0 ? 1 : 0;
+      const double off =
+          std::max({std::abs(run.mean.r - mean.r) / run.standard_error.r, std::abs(run.mean.g - mean.g) / run.standard_error.g,
+                    std::abs(run.mean.b - mean.b) / run.standard_error.b});
+      outside += off > 3.0 ? 1 : 0;
       spread += off * off;
       ++all;
       EXPECT_LE(run.standard_error.g, 0.02 * run.mean.g) << i;
     }
   }
   EXPECT_LE(outside, all / 100);
-  // Students of 15 degrees of freedom have variance 15/13, which the widening divides by 1.43; stopping when the error looks small enough
-  // adds.
-  EXPECT_GT(spread / all, 0.5) << "the standard error is not far too large either";
+  EXPECT_GT(spread / all, 0.3) << "the standard error is not far too large either";
 }
 
 // Every orientation, grazing and from behind.

@@ -21,18 +21,20 @@ LobeSampling lobe_sampling(const Surface<double>& surface, Layers layers, bool s
   s.alpha = surface.base.alpha;
   s.coat_alpha = surface.coat_alpha;
   const auto draw = [&s](Strategy strategy, unsigned weight) { s.weights[index_of(strategy)] = weight; };
-  draw(Strategy::Soft, soft ? 4 : 0);
+  // Found best, by the time to 1 %, over skies with and without a sun and over rough, smooth, metal and cloth spheres; a flat optimum. The
+  // base's lobe is worth more the more of the base it is: of a dielectric it is a few hundredths.
+  draw(Strategy::Soft, soft ? 8 : 0);
   draw(Strategy::Bright, bright ? 1 : 0);
-  draw(Strategy::Cosine, 2);
+  draw(Strategy::Cosine, 1);
   if (s.alpha > 0.0) {
-    draw(Strategy::Ggx, 2);
+    draw(Strategy::Ggx, surface.base.metallic < 0.25 ? 1 : surface.base.metallic < 0.75 ? 2 : 4);
   }
   if (layers.clearcoat && s.coat_alpha > 0.0 && surface.clearcoat > 0.0) {
-    draw(Strategy::CoatGgx, 2);
+    draw(Strategy::CoatGgx, 1);
   }
   if (layers.sheen && surface.sheen_roughness > 0.0) {
     s.sheen_exponent = 1.0 / (surface.sheen_roughness * surface.sheen_roughness);
-    draw(Strategy::Sheen, 2);
+    draw(Strategy::Sheen, 1);
   }
   return s;
 }
