@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "conformance/code_rounding.h"
 #include "conformance/demands.h"
@@ -43,8 +44,8 @@ image::Image turned(const image::Image& picture) {
 /// The pictures, and which channels of them are looked at.
 class Comparison {
  public:
-  Comparison(const Relation& relation, const std::vector<image::Image>& pictures, const RelationRules& rules)
-      : relation_(relation), rules_(rules), pictures_(pictures) {
+  Comparison(const Relation& relation, std::vector<image::Image> pictures, const RelationRules& rules)
+      : relation_(relation), rules_(rules), pictures_(std::move(pictures)) {
     for (std::size_t i = 1; i < pictures_.size() && relation.mirrored; ++i) {
       pictures_[i] = turned(pictures_[i]);
     }
@@ -277,7 +278,7 @@ void decide(const Relation& relation, const Comparison& comparison, const Findin
   verdict.bound_ratio = worst.ratio;
   verdict.worst_x = worst.x;
   verdict.worst_y = worst.y;
-  const double looked_at = static_cast<double>(verdict.compared_pixels + verdict.excluded_pixels);
+  const auto looked_at = static_cast<double>(verdict.compared_pixels + verdict.excluded_pixels);
   if (verdict.nonfinite_pixels > 0) {
     verdict.status = Status::Fail;
     verdict.message = std::to_string(verdict.nonfinite_pixels) + " pixels are NaN or Inf";
