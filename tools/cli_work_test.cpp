@@ -191,7 +191,7 @@ TEST_F(CommandLine, GoldenTakesLightFromEverywhere) {
 
 TEST_F(CommandLine, AnEnvironmentThatIsNoneIsRefused) {
   const std::string scene = write_scene("square");
-  EXPECT_EQ(run({"golden", scene, "-o", path("out.exr"), "--environment", "uniform:1,1,1", "--samples", "255"}).exit_code, 2)
+  EXPECT_EQ(run({"golden", scene, "-o", path("out.exr"), "--environment", "uniform:1,1,1", "--samples", "511"}).exit_code, 2)
       << "too few for a standard error";
   for (const std::string text : {"uniform:1,2", "uniform:1,-1,1", "uniform:nan,1,1", "sky.png", "sky"}) {
     EXPECT_EQ(run({"golden", scene, "-o", path("out.exr"), "--environment", text}).exit_code, 2) << text;

@@ -17,6 +17,8 @@ class EnvironmentLight {
   glm::dvec3 radiance(const glm::dvec3& direction) const { return environment_.radiance(direction); }
   const ImageLight& soft() const { return soft_; }
   const ImageLight& bright() const { return bright_; }
+  /// Whether what is bright lies apart (lamps), not in one place (the sun).
+  bool bright_scattered() const { return bright_sine_ > 0.25; }
   /// Whether all that is bright lies below the horizon of a unit normal.
   bool bright_below(const Vec3<double>& normal) const;
 

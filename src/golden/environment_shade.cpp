@@ -44,7 +44,9 @@ bool bright_reaches(const Surface<double>& surface, Layers layers, const Environ
 }
 
 LobeSampling sampling_of(const Surface<double>& surface, Layers layers, const EnvironmentLight& light) {
-  return lobe_sampling(surface, layers, !light.soft().dark(), bright_reaches(surface, layers, light));
+  // Of many lamps each must be met; where the sun lies, few directions tell.
+  const unsigned bright = light.bright_scattered() ? 4 : 1;
+  return lobe_sampling(surface, layers, !light.soft().dark(), bright_reaches(surface, layers, light) ? bright : 0);
 }
 
 // Each strategy of each replica draws its weight at least once.

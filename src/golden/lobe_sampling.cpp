@@ -14,7 +14,7 @@ LobeFrame frame_of(const LobeView<double>& lobe) {
 
 }  // namespace
 
-LobeSampling lobe_sampling(const Surface<double>& surface, Layers layers, bool soft, bool bright) {
+LobeSampling lobe_sampling(const Surface<double>& surface, Layers layers, bool soft, unsigned bright) {
   LobeSampling s;
   s.base = frame_of(LobeView<double>(surface.normal, surface.view));
   s.coat = frame_of(LobeView<double>(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view));
@@ -24,7 +24,7 @@ LobeSampling lobe_sampling(const Surface<double>& surface, Layers layers, bool s
   // Found best, by the time to 1 %, over skies with and without a sun and over rough, smooth, metal and cloth spheres; a flat optimum. The
   // base's lobe is worth more the more of the base it is: of a dielectric it is a few hundredths.
   draw(Strategy::Soft, soft ? 8 : 0);
-  draw(Strategy::Bright, bright ? 1 : 0);
+  draw(Strategy::Bright, bright);
   draw(Strategy::Cosine, 1);
   if (s.alpha > 0.0) {
     draw(Strategy::Ggx, surface.base.metallic < 0.25 ? 1 : surface.base.metallic < 0.75 ? 2 : 4);

@@ -25,7 +25,7 @@ struct LobeFrame {
 struct LobeSampling {
   LobeFrame base, coat;
   double alpha = 0, coat_alpha = 0, sheen_exponent = 0;
-  static constexpr unsigned largest_total_weight = 16;
+  static constexpr unsigned largest_total_weight = 19;
   unsigned weights[strategy_count] = {};  ///< how often each strategy draws: a power of two, or 0
 
   unsigned total_weight() const {
@@ -37,8 +37,9 @@ struct LobeSampling {
   }
 };
 
-/// @param soft, bright  whether to draw from these parts of the image
-LobeSampling lobe_sampling(const Surface<double>& surface, Layers layers, bool soft, bool bright);
+/// @param soft    whether to draw from that part of the image
+/// @param bright  weight of the bright part: a power of two up to 4, or 0
+LobeSampling lobe_sampling(const Surface<double>& surface, Layers layers, bool soft, unsigned bright);
 
 /// A lobe of GGX with the constants that drawing from it takes.
 template <class Real>

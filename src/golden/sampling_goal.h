@@ -12,6 +12,6 @@ struct SamplingGoal {
 };
 
 /// Fewer directions than this give no standard error.
-inline constexpr std::uint32_t least_samples = 256;
+inline constexpr std::uint32_t least_samples = 512;
 
 }  // namespace sheen::golden
