@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "golden/frame.h"
 #include "golden/long_double_model.h"
 #include "golden/test_scenes.h"
 
@@ -333,6 +334,38 @@ TEST(Render, SceneWithNothingInItIsBlack) {
       EXPECT_EQ(im.at(x, y, 3), 0.0f);
     }
   }
+}
+
+TEST(Render, TheBackgroundFillsThePictureAndLiesUnderWhatBlends) {
+  scene::Environment sky;
+  sky.width = 16;
+  sky.height = 8;
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      sky.texels.emplace_back(1.0f + 0.1f * static_cast<float>(y), 0.5f, 0.25f);
+    }
+  }
+  scene::Material pane = test::lambertian({0.0, 0.0, 0.0, 0.25});
+  pane.alpha_mode = scene::AlphaMode::Blend;
+  const scene::Scene s = test::scene_with(test::square(0.4), pane, test::camera_at(3.0), {});
+  Settings settings = test::settings_for(16, 16, true);
+  settings.environment = &sky;
+  const image::Image without = render(s, settings);
+  EXPECT_EQ(without.at(0, 0, 3), 0.0f);
+  sky.background = true;
+  const image::Image im = render(s, settings);
+  const Frame frame(s, settings);
+  for (const glm::ivec2 at : {glm::ivec2(0, 0), glm::ivec2(9, 7), glm::ivec2(15, 15)}) {
+    const glm::dvec3 behind = sky.radiance(-frame.rays.toward_camera(frame.rays.through(at.x + 0.5, at.y + 0.5)));
+    const double share = at.x == 9 ? 0.75 : 1.0;  // the pane is in the middle
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(im.at(at.x, at.y, c), share * behind[c], 1e-6) << at.x << " " << c;
+      EXPECT_GT(im.at(at.x, at.y, 4 + c), 0.0f);
+    }
+    EXPECT_EQ(im.at(at.x, at.y, 3), 1.0f);
+  }
+  // The sky brightens downward, so a moved sample sees more or less: the bound holds that beyond its floor.
+  EXPECT_GT(im.at(0, 0, 4), 1e-3 * im.at(0, 0, 0) + 2.1e-5);
 }
 
 }  // namespace

@@ -36,7 +36,15 @@ void Tile::add_sample(const Seen& seen, const Ray& ray, LodChoice lod, const Hit
   for (const Hit& hit : seen.blended) {
     add_layer(hit, ray, varied == &hit ? lod : LodChoice{});
   }
-  samples_.push_back({first, static_cast<std::uint32_t>(layers_.size()) - first});
+  samples_.push_back({first, static_cast<std::uint32_t>(layers_.size()) - first, background(ray)});
+}
+
+bool Tile::shows_background() const {
+  return frame_.settings.environment != nullptr && frame_.settings.environment->background;
+}
+
+glm::dvec3 Tile::background(const Ray& ray) const {
+  return shows_background() ? frame_.settings.environment->radiance(-frame_.rays.toward_camera(ray)) : glm::dvec3(0.0);
 }
 
 // Also what is seen where the other of two surfaces at one depth wins. Leaves `seen` without its tie.
@@ -122,7 +130,7 @@ void Tile::add_shifted(Plan& plan) {
     Look& look = looks_[corner + 1];
     look.ray = frame_.rays.through(centre.ray.x + dx, centre.ray.y + dy);
     frame_.tracer.trace(look.ray, true, look.seen);
-    if (centre.seen.empty() && look.seen.empty()) {
+    if (centre.seen.empty() && look.seen.empty() && !shows_background()) {
       continue;
     }
     plan.excluded = plan.excluded || look.seen.tie || interrupted(centre.ray, centre.seen, look.ray, look.seen);
@@ -244,6 +252,10 @@ void Tile::add_uniform_light(const std::uint32_t* order, std::size_t count, cons
 // rgb = a c + (1 - a) dst over black, coverage likewise. Refined: with the full estimate of the light of an image.
 Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
   Composed out;
+  if (shows_background()) {
+    out.radiance = out.magnitude = sample.background;
+    out.coverage = 1.0;
+  }
   for (std::uint32_t i = sample.first; i < sample.first + sample.count; ++i) {
     const Shaded<double>& s = shaded_[layers_[i].surface];
     const double a = layers_[i].opacity;

@@ -43,6 +43,7 @@ class Tile {
   };
   struct Sample {  // layers back to front
     std::uint32_t first, count;
+    glm::dvec3 background;  // what its ray meets behind everything, if that is shown
   };
   struct Plan {  // samples: the centre, the shifted ones, then a group of other levels of detail for each texture
     std::uint64_t pixel;
@@ -65,6 +66,8 @@ class Tile {
   void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
   bool interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const;
   Seen extended(const Seen& centre, const Ray& ray) const;
+  bool shows_background() const;
+  glm::dvec3 background(const Ray& ray) const;
   void add_levels(const Seen& seen, const Ray& ray);
   void shade_surfaces();
   void add_uniform_light(const std::uint32_t* order, std::size_t count, const Lighting& lighting);
