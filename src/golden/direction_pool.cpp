@@ -17,8 +17,6 @@ std::uint64_t mix(std::uint64_t x) {
 
 namespace {
 
-constexpr std::uint32_t block = DirectionPool::block;
-
 // Blocks of a sequence that are kept; what lies beyond is made anew each time. 2,048 directions cost 32 MiB an image over all sequences,
 // and few pixels need more.
 constexpr std::uint32_t kept_blocks = 64;

@@ -30,7 +30,7 @@ double shift(std::uint64_t seed, double irrational) {
 // The interval of running sums that holds a share of their total, which becomes how far inside it lies, in [0, 1).
 std::size_t place(const double* ends, std::size_t count, double& share) {
   const double at = share * ends[count - 1];
-  const std::size_t index = static_cast<std::size_t>(std::upper_bound(ends, ends + count - 1, at) - ends);
+  const auto index = static_cast<std::size_t>(std::upper_bound(ends, ends + count - 1, at) - ends);
   const double begin = index == 0 ? 0.0 : ends[index - 1];
   share = ends[index] > begin ? std::clamp((at - begin) / (ends[index] - begin), 0.0, 1.0 - 1e-12) : 0.5;
   return index;
