@@ -131,7 +131,6 @@ void answer_request(const json& request, renderer::Renderer& renderer, renderer:
 void serve(std::istream& in, std::ostream& out, const ServeOptions& options) {
   const renderer::Precision precision = parse_precision(options.precision);
   const gles::ContextKind kind = parse_context(options.context);
-  image::preload();
   const std::unique_ptr<gles::Context> context = gles::Context::create(kind);
   const gles::ContextInfo& info = context->info();
   renderer::Renderer renderer(*context, default_cache() / "environments");

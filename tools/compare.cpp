@@ -31,7 +31,6 @@ int compare(const CompareOptions& options) {
   if (!options.heatmap.empty()) {
     require_writable(options.heatmap, {".png", ".exr", ".hdr", ".pfm"});
   }
-  image::preload();
   const image::Image candidate = image::read(options.candidate);
   const image::Image reference = image::read(options.reference);
   if (candidate.width != reference.width || candidate.height != reference.height) {

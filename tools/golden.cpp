@@ -38,7 +38,6 @@ image::Image golden_image(const scene::Scene& scene, const SceneOptions& options
 int golden(const GoldenOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
-  image::preload();
   const scene::Scene scene = load_scene(options);
   const std::optional<scene::Environment> environment = load_environment(options, scene);
   golden::SamplingGoal sampling;

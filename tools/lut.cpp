@@ -147,9 +147,6 @@ int lut(const LutOptions& options) {
   require_writable(options.output, {".csv", ".hpp", ".exr", ".hdr"});
   const std::string extension = extension_of(options.output);
   const bool is_picture = extension == ".exr" || extension == ".hdr";
-  if (is_picture) {
-    image::preload();
-  }
   const Lut lut = made(options);
   if (is_picture) {
     image::write(options.output, picture(options, lut));

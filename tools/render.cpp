@@ -62,7 +62,6 @@ nlohmann::ordered_json describe(const conformance::Verdict& verdict) {
 int render(const RenderOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
-  image::preload();
   const scene::Scene scene = load_scene(options);
   const std::optional<scene::Environment> environment = load_environment(options, scene);
   const std::unique_ptr<gles::Context> context = gles::Context::create(options.context);

@@ -6,7 +6,7 @@ packages=(
   cmake ninja-build g++ pkg-config
   python3-glad                                         # generates the GL loader at build time
   libglm-dev libtinygltf-dev nlohmann-json3-dev libxxhash-dev
-  libspng-dev libturbojpeg0-dev
+  libspng-dev libturbojpeg0-dev libopenexr-dev libstb-dev
   libopenimageio-dev libembree-dev libtbb-dev libxsimd-dev
   libcli11-dev libfmt-dev
   libgtest-dev libgmock-dev libbenchmark-dev

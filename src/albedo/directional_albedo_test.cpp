@@ -109,7 +109,7 @@ TEST(DirectionalAlbedo, OneLookupIsOffByAtMostSeventeenHundredthsBelow) {
 TEST(Quadrature, FastAndFullMeetTheirErrors) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 1500; ++i) {
     const Visibility visibility = all[i % 3];
     const double mu = std::exp(std::log(min_n_dot_v) * unit(generator)), r = std::exp(std::log(0.003) * unit(generator));
     // Twice the nodes of Full in both directions, in scalar arithmetic.

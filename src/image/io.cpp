@@ -1,16 +1,17 @@
 #include "image/io.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cerrno>
-#include <cmath>
 #include <fstream>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "image/decode_exr.h"
+#include "image/decode_hdr.h"
+#include "image/encode.h"
 #include "image/loader.h"
 #include "image/pfm.h"
 #include "image/png_check.h"
@@ -121,13 +122,8 @@ void decode_codes(RawPicture& raw) {
   raw.codes.clear();
 }
 
+/// OpenImageIO's name of a format that it reads for us.
 const char* format_of(const std::string& extension) {
-  if (extension == ".exr") {
-    return "openexr";
-  }
-  if (extension == ".hdr") {
-    return "hdr";
-  }
   if (extension == ".png") {
     return "png";
   }
@@ -150,95 +146,21 @@ void require_sound(const std::filesystem::path& file, const Image& image) {
   }
 }
 
-std::array<int, 3> rgb_of(const Image& image, const char* format) {
-  const std::array<int, 3> rgb = {image.channel("R"), image.channel("G"), image.channel("B")};
-  if (rgb[0] < 0 || rgb[1] < 0 || rgb[2] < 0) {
-    throw Error(std::string(format) + " needs the channels R, G and B");
+std::vector<std::uint8_t> encode(const std::string& extension, const Image& image, ExrCompression compression) {
+  if (extension == ".pfm") {
+    return encode_pfm(image);
   }
-  return rgb;
+  if (extension == ".png") {
+    return encode_png(image);
+  }
+  return extension == ".hdr" ? encode_hdr(image) : encode_exr(image, compression);
 }
 
-/// What RGBE can hold: no negatives, no NaN, nothing over its largest exponent.
-RawPicture rgbe_picture(const Image& image) {
-  constexpr float largest = 1.7e38f;  // (255/256) 2^127: Ward 1991, "Real Pixels", Graphics Gems II
-  const auto rgb = rgb_of(image, "an .hdr file");
-  RawPicture raw;
-  raw.width = image.width;
-  raw.height = image.height;
-  raw.channels = {"R", "G", "B"};
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      for (const int c : rgb) {
-        const float value = image.at(x, y, c);
-        raw.values.push_back(value > 0 ? std::min(value, largest) : 0.0f);
-      }
-    }
-  }
-  return raw;
-}
-
-RawPicture png_picture(const Image& image) {
-  const auto rgb = rgb_of(image, "a PNG");
-  const int alpha = image.channel("A");
-  RawPicture raw;
-  raw.width = image.width;
-  raw.height = image.height;
-  raw.bits = 8;
-  raw.channels = alpha < 0 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"R", "G", "B", "A"};
-  const auto code = [](double signal) { return static_cast<std::uint16_t>(std::lround(255.0 * signal)); };
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      std::array<double, 3> color{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        color[c] = image.at(x, y, rgb[c]);
-      }
-      const double coverage = alpha < 0 ? 1.0 : image.at(x, y, alpha);
-      if (std::isnan(color[0]) || std::isnan(color[1]) || std::isnan(color[2]) || std::isnan(coverage)) {
-        raw.codes.insert(raw.codes.end(), {255, 0, 255});
-        if (alpha >= 0) {
-          raw.codes.push_back(255);
-        }
-        continue;
-      }
-      for (const double value : color) {
-        raw.codes.push_back(coverage > 0 ? code(linear_to_srgb(value / coverage)) : std::uint16_t{0});
-      }
-      if (alpha >= 0) {
-        raw.codes.push_back(code(std::clamp(coverage, 0.0, 1.0)));
-      }
-    }
-  }
-  return raw;
-}
-
-std::vector<std::uint8_t> encode(const RawPicture& raw, bool srgb) {
-  std::vector<std::uint8_t> bytes;
-  const std::string why = loaded_module().encode_png(raw, srgb, bytes);
-  if (!why.empty()) {
-    throw Error("a PNG cannot be encoded: " + why);
-  }
-  return bytes;
-}
-
-std::vector<std::uint8_t> encode_for(const std::filesystem::path& file, const std::string& extension, const Image& image) {
+std::vector<std::uint8_t> encode_for(const std::filesystem::path& file, const Image& image, ExrCompression compression) {
   try {
-    return extension == ".pfm" ? encode_pfm(image) : encode_png(image);
+    return encode(lower_extension(file), image, compression);
   } catch (const Error& e) {
     throw Error(file.string() + ": " + e.what());
-  }
-}
-
-void write_through_module(const std::filesystem::path& file, StagedFile& staged, const Image& image, ExrCompression compression) {
-  std::string why;
-  if (lower_extension(file) == ".hdr") {
-    const RawPicture raw = rgbe_picture(image);
-    why = module_for(file).write_floats(staged.path().c_str(), "hdr", "", raw);
-  } else {
-    const RawPicture raw{image.width, image.height, image.channels, 0, image.data, {}};
-    why = module_for(file).write_floats(staged.path().c_str(), "openexr", compression == ExrCompression::Pxr24 ? "pxr24" : "zip", raw);
-  }
-  if (!why.empty()) {
-    throw Error(file.string() + ": cannot be written: " + why);
   }
 }
 
@@ -247,7 +169,7 @@ void write_through_module(const std::filesystem::path& file, StagedFile& staged,
 Image read(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   const char* format = format_of(extension);
-  if (format == nullptr && extension != ".pfm") {
+  if (format == nullptr && extension != ".pfm" && extension != ".exr" && extension != ".hdr") {
     throw Error(file.string() + ": cannot be read: unknown extension (known: .exr .hdr .pfm .png .jpg .jpeg)");
   }
   require_readable(file);
@@ -256,7 +178,11 @@ Image read(const std::filesystem::path& file) {
   }
   RawPicture raw;
   std::string why = extension == ".png" ? png_flaw(file) : std::string();
-  if (why.empty()) {
+  if (extension == ".exr") {
+    why = decode_exr(file, raw);
+  } else if (extension == ".hdr") {
+    why = decode_hdr(file, raw);
+  } else if (why.empty()) {
     why = module_for(file).read(file.c_str(), format, raw);
   }
   if (!why.empty()) {
@@ -276,32 +202,9 @@ void write(const std::filesystem::path& file, const Image& image, ExrCompression
   }
   require_sound(file, image);
   StagedFile staged(file);
-  if (extension == ".pfm" || extension == ".png") {
-    const std::vector<std::uint8_t> bytes = encode_for(file, extension, image);
-    staged.fill(bytes.data(), bytes.size());
-  } else {
-    write_through_module(file, staged, image, compression);
-  }
+  const std::vector<std::uint8_t> bytes = encode_for(file, image, compression);
+  staged.fill(bytes.data(), bytes.size());
   staged.commit();
-}
-
-std::vector<std::uint8_t> encode_png(const Image& image) {
-  return encode(png_picture(image), true);
-}
-
-std::vector<std::uint8_t> encode_png_codes(int width, int height, int channels, int bits, const std::vector<std::uint16_t>& codes) {
-  const std::array<std::vector<std::string>, 5> names = {{{}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};
-  if (width <= 0 || height <= 0 || channels < 1 || channels > 4 || (bits != 8 && bits != 16)) {
-    throw Error("a PNG cannot be encoded: it holds 1 to 4 channels of 8 or 16 bits and at least one pixel");
-  }
-  const std::size_t expected = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
-  if (codes.size() != expected) {
-    throw Error("a PNG cannot be encoded: the codes do not fit its size");
-  }
-  if (bits == 8 && std::any_of(codes.begin(), codes.end(), [](std::uint16_t code) { return code > 255; })) {
-    throw Error("a PNG cannot be encoded: a code is over 255");
-  }
-  return encode({width, height, names[static_cast<std::size_t>(channels)], bits, {}, codes}, false);
 }
 
 void preload() {

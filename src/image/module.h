@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,17 +18,23 @@ struct RawPicture {
   std::vector<std::uint16_t> codes;
 };
 
-/// What the image module offers. It is a library of its own because linking OpenImageIO loads some 260 libraries at every start. Plain
-/// function pointers and messages instead of exceptions, so that nothing but data crosses the dlopen border: each function returns an empty
-/// string, or why it failed.
+/// Samples of a picture of that size, or 0 where it is empty or so large (over 8 GiB of floats) that its header must be corrupt: to be
+/// asked before memory is.
+constexpr std::size_t sample_count(std::int64_t width, std::int64_t height, std::int64_t channels) {
+  constexpr std::int64_t most = std::int64_t{1} << 31;
+  if (width <= 0 || height <= 0 || channels <= 0 || width > most / height || width * height > most / channels) {
+    return 0;
+  }
+  return static_cast<std::size_t>(width * height * channels);
+}
+
+/// What the image module offers: reading. It is a library of its own because linking OpenImageIO loads some 260 libraries at every start.
+/// Plain function pointers and messages instead of exceptions, so that nothing but data crosses the dlopen border: each function returns an
+/// empty string, or why it failed.
 struct Module {
-  /// @param format  OpenImageIO's name of the format: "openexr", "hdr", "png", "jpeg"
-  /// Alpha is left as the file has it (straight in PNG, premultiplied in EXR). An EXR is returned over its display window.
+  /// @param format  OpenImageIO's name of the format: "png", "jpeg"
+  /// Alpha is left as the file has it (straight).
   std::string (*read)(const char* path, const char* format, RawPicture& out);
-  /// Writes floats; @param compression  "zip" or "pxr24" (openexr only).
-  std::string (*write_floats)(const char* path, const char* format, const char* compression, const RawPicture& picture);
-  /// Appends the bytes of a PNG of the codes, as they are; @param srgb  marks the file as sRGB.
-  std::string (*encode_png)(const RawPicture& picture, bool srgb, std::vector<std::uint8_t>& bytes);
 };
 
 /// Name and type of the module's one symbol.
