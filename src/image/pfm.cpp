@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -72,8 +71,8 @@ float float_at(const char* bytes, bool little_endian) {
 
 Image read_pfm(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::vector<char> bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad()) {
+  std::vector<char> bytes(std::filesystem::file_size(file));
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
     throw Error(file.string() + ": cannot be read");
   }
   const Header header = parse_header(file, bytes);
@@ -85,8 +84,13 @@ Image read_pfm(const std::filesystem::path& file) {
     throw Error(file.string() + ": PFM data ends early");
   }
   Image image(header.width, header.height, {"R", "G", "B"});
+  const bool as_in_memory = channels == 3 && header.little_endian == (std::endian::native == std::endian::little);
   for (std::size_t y = 0; y < height; ++y) {
     const char* row = bytes.data() + header.size + (height - 1 - y) * width * channels * sizeof(float);
+    if (as_in_memory) {
+      std::memcpy(image.data.data() + y * width * 3, row, width * 3 * sizeof(float));
+      continue;
+    }
     for (std::size_t x = 0; x < width; ++x) {
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t stored = channels == 3 ? c : 0;

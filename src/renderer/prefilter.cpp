@@ -115,7 +115,7 @@ image::Image prefilter(gles::Context& context, const scene::Environment& environ
   }
   const PointRows rows = point_rows(points, 0, nullptr);
   const gles::Texture point_texture = upload_floats(gl, "points", rows.columns, rows.rows, rows.texels);
-  const gles::Texture picture = upload_mipmapped(gl, "the environment's image", texels_of(environment));
+  const gles::Texture picture = upload_mipmapped(gl, "the environment's image", scene::mipmaps(texels_of(environment)));
   const Target target(context, width, height);
   target.begin();
   gl.Disable(GL_DEPTH_TEST);

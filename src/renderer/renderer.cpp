@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <map>
 #include <optional>
 #include <utility>
@@ -35,10 +36,18 @@ struct Resources {
     return programs.emplace(text.fragment + text.vertex, Program(context.gl(), text)).first->second;
   }
 
+  /// Begins to build a table that will be asked for, while the driver compiles and pictures are uploaded.
+  void start_table(albedo::Visibility visibility) {
+    if (!tables.contains(visibility) && !built.contains(visibility)) {
+      built.emplace(visibility, std::async(std::launch::async, albedo::build_table, visibility));
+    }
+  }
+
   GLuint table(albedo::Visibility visibility) {
     auto found = tables.find(visibility);
     if (found == tables.end()) {
-      found = tables.emplace(visibility, upload_table(context.gl(), albedo::build_table(visibility))).first;
+      start_table(visibility);
+      found = tables.emplace(visibility, upload_table(context.gl(), built.extract(visibility).mapped().get())).first;
     }
     return found->second.name();
   }
@@ -61,6 +70,7 @@ struct Resources {
   gles::Context& context;
   std::map<std::string, Program> programs;
   std::map<albedo::Visibility, gles::Texture> tables;
+  std::map<albedo::Visibility, std::future<albedo::Table>> built;  ///< not yet uploaded
   std::optional<gles::Texture> ggx;
   std::optional<Target> target;
   EnvironmentMaps environments;
@@ -139,6 +149,7 @@ class SceneDraw {
 
   void prepare() {
     std::vector<ShaderPlan> plans;
+    std::vector<TextureUse> uses;
     std::vector<Box> boxes;
     std::vector<glm::dmat4> matrices;
     for (const scene::Instance& instance : scene_.instances) {
@@ -148,13 +159,18 @@ class SceneDraw {
         const scene::Primitive& primitive = scene_.primitives.at(static_cast<std::size_t>(instance.primitive));
         drawable.material = &scene_.materials.at(static_cast<std::size_t>(primitive.material));
         drawable.plan = plan_shader(scene_, primitive, camera_, settings_);
+        if (drawable.plan.sheen_albedo_table) {
+          resources_.start_table(settings_.sheen.visibility);
+        }
         drawable.program = &resources_.program(drawable.plan, settings_);
         drawable.geometry.emplace(gl_, scene_, primitive, drawable.plan);
         plans.push_back(drawable.plan);
+        uses.insert(uses.end(), drawable.plan.textures.begin(), drawable.plan.textures.end());
       }
       boxes.push_back(drawable.geometry->box());
       matrices.push_back(view_from_local(instance));
     }
+    pictures_.prepare(scene_, uses);
     const double aspect = static_cast<double>(settings_.view.width) / static_cast<double>(settings_.view.height);
     clip_from_view_ = scene::clip_from_camera(tighten_depth_range(camera_, boxes, matrices), aspect);
     if (settings_.environment != nullptr && settings_.environment->background) {
@@ -241,7 +257,7 @@ class SceneDraw {
     const Program& program = *drawable.program;
     program.use();
     set_material(program, *drawable.material);
-    // Uploading binds to the active unit, so everything is made before anything is bound to its own.
+    // Uploading a table binds to the active unit, so they are made before anything is bound to its own.
     std::vector<GLuint> textures;
     for (const TextureUse& use : drawable.plan.textures) {
       textures.push_back(pictures_.texture(scene_, use));

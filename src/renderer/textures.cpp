@@ -4,6 +4,9 @@
 #include <string>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 namespace sheen::renderer {
 namespace {
 
@@ -42,19 +45,59 @@ gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, 
 
 }  // namespace
 
-GLuint Pictures::texture(const scene::Scene& scene, const TextureUse& use) {
-  const scene::Texture& texture = scene.textures.at(static_cast<std::size_t>(use.info->texture));
-  const scene::Picture& picture = scene.pictures.at(static_cast<std::size_t>(texture.picture));
-  const bool mipmapped = texture.sampler.mip != scene::MipFilter::None;
-  const auto [place, fresh] = textures_.try_emplace(Key{texture.picture, use.space, mipmapped}, *gl_);
-  if (!fresh) {
-    return place->second.name();
+int Pictures::first_equal(const scene::Scene& scene, int picture) const {
+  const scene::Picture& wanted = scene.pictures.at(static_cast<std::size_t>(picture));
+  for (const auto& [other, first] : same_as_) {
+    const scene::Picture& known = scene.pictures[static_cast<std::size_t>(first)];
+    if (known.width == wanted.width && known.height == wanted.height && known.bits == wanted.bits && known.codes == wanted.codes) {
+      return first;
+    }
   }
-  scene::Texels texels = scene::decode(picture, use.space);
-  const std::string what = scene.file + ": picture '" + picture.name + "'";
-  place->second =
-      mipmapped ? upload_mipmapped(*gl_, what, std::move(texels)) : upload_floats(*gl_, what, texels.width, texels.height, texels.rgba);
-  return place->second.name();
+  return picture;
+}
+
+Pictures::Key Pictures::key_of(const scene::Scene& scene, const TextureUse& use) const {
+  const scene::Texture& texture = scene.textures.at(static_cast<std::size_t>(use.info->texture));
+  return {same_as_.at(texture.picture), use.space, texture.sampler.mip != scene::MipFilter::None};
+}
+
+void Pictures::prepare(const scene::Scene& scene, const std::vector<TextureUse>& uses) {
+  std::vector<Key> keys;
+  for (const TextureUse& use : uses) {
+    const int picture = scene.textures.at(static_cast<std::size_t>(use.info->texture)).picture;
+    if (!same_as_.contains(picture)) {
+      same_as_.emplace(picture, first_equal(scene, picture));
+    }
+    const Key key = key_of(scene, use);
+    if (!textures_.contains(key) && std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      keys.push_back(key);
+    }
+  }
+  // No more pictures at once than there are processors: each takes 16 bytes a texel while it waits for its upload.
+  const auto at_once = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  for (std::size_t first = 0; first < keys.size(); first += at_once) {
+    std::vector<std::vector<scene::Texels>> levels(std::min(at_once, keys.size() - first));
+    tbb::parallel_for(std::size_t{0}, levels.size(), [&](std::size_t i) {
+      const auto& [picture, space, mipmapped] = keys[first + i];
+      scene::Texels texels = scene::decode(scene.pictures.at(static_cast<std::size_t>(picture)), space);
+      if (mipmapped) {
+        levels[i] = scene::mipmaps(std::move(texels));
+      } else {
+        levels[i].push_back(std::move(texels));
+      }
+    });
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const auto& [picture, space, mipmapped] = keys[first + i];
+      const std::string what = scene.file + ": picture '" + scene.pictures[static_cast<std::size_t>(picture)].name + "'";
+      const scene::Texels& level0 = levels[i].front();
+      textures_.emplace(keys[first + i], mipmapped ? upload_mipmapped(*gl_, what, levels[i])
+                                                   : upload_floats(*gl_, what, level0.width, level0.height, level0.rgba));
+    }
+  }
+}
+
+GLuint Pictures::texture(const scene::Scene& scene, const TextureUse& use) const {
+  return textures_.at(key_of(scene, use)).name();
 }
 
 gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, int width, int height,
@@ -67,16 +110,15 @@ gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, 
   return texture;
 }
 
-gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& what, scene::Texels level0) {
-  const int width = level0.width;
-  const int height = level0.height;
+gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& what, const std::vector<scene::Texels>& levels) {
+  const int width = levels.front().width;
+  const int height = levels.front().height;
   const int columns = width + (width + 1) / 2;
   const int rows = height + mip_rows;
   check_texture_size(gl, what + ", with its mipmaps beside it,", columns, rows);
   gles::Texture texture(gl);
   bind_unfiltered(gl, texture.name());
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, columns, rows, 0, GL_RGBA, GL_FLOAT, nullptr);
-  const std::vector<scene::Texels> levels = scene::mipmaps(std::move(level0));
   for (std::size_t level = 0; level < levels.size(); ++level) {
     const int x = level == 0 ? 0 : width;
     const int y = level == 0 ? 0 : height - (height >> (level - 1)) + static_cast<int>(level) - 1;

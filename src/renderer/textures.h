@@ -15,26 +15,33 @@
 namespace sheen::renderer {
 
 /// The pictures of one scene on the GPU as linear 32-bit floats, each decoded and uploaded once for a colour space, with mipmaps where a
-/// sampler reads them. The shader filters them itself.
+/// sampler reads them; pictures of equal texels are one (exporters write occlusion twice). The shader filters them itself.
 class Pictures {
  public:
   explicit Pictures(const gles::Functions& gl) : gl_(&gl) {}
 
-  /// The GL texture for a use; decodes and uploads it when first asked for. Throws gles::Error for one larger than the driver takes.
-  GLuint texture(const scene::Scene& scene, const TextureUse& use);
+  /// Decodes and uploads what these uses need, several at a time. Throws gles::Error for one larger than the driver takes.
+  void prepare(const scene::Scene& scene, const std::vector<TextureUse>& uses);
+
+  /// The GL texture for a use that was prepared.
+  GLuint texture(const scene::Scene& scene, const TextureUse& use) const;
 
  private:
   using Key = std::tuple<int, scene::ColorSpace, bool>;  // picture, its decoding, whether it has mipmaps
+  Key key_of(const scene::Scene& scene, const TextureUse& use) const;
+  int first_equal(const scene::Scene& scene, int picture) const;
+
   const gles::Functions* gl_;
   std::map<Key, gles::Texture> textures_;
+  std::map<int, int> same_as_;  ///< of each picture in use, the first in use whose texels are the same
 };
 
 /// An RGBA32F texture that nothing filters but the shader, rows from the top. `what` names it where it is too large: gles::Error.
 gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, int width, int height,
                             const std::vector<glm::vec4>& texels);
 
-/// Likewise with its mipmaps beside it, as shaders/textures.glsl reads them.
-gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& what, scene::Texels level0);
+/// Likewise with its mipmaps, from level 0 on, beside it, as shaders/textures.glsl reads them.
+gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& what, const std::vector<scene::Texels>& levels);
 
 /// An R32F texture of a table of E.
 gles::Texture upload_table(const gles::Functions& gl, const albedo::Table& table);

@@ -8,7 +8,6 @@ namespace {
 using scene::Filter;
 using scene::MipFilter;
 using scene::Wrap;
-using test::lambert;
 using test::pi;
 using test::square_scene;
 
@@ -136,6 +135,29 @@ TEST_F(Texturing, EveryLevelOfAnOddPictureIsWhereItIsLookedFor) {
       scene.materials[0].emissive_texture.transform = glm::dmat3(glm::dvec3(scale, 0, 0), glm::dvec3(0, scale, 0), glm::dvec3(0, 0, 1));
       EXPECT_NEAR(render(scene).at(5, 2, 0), 1.0, 1e-5) << width << " x " << height << " at scale " << scale;
     }
+  }
+}
+
+TEST(Pictures, OfEqualTexelsAreOneTextureAndOthersAreNot) {
+  const std::unique_ptr<gles::Context> context = gles::Context::create_any(gles::ContextKind::OsMesa);
+  const gles::CurrentScope current(*context);
+  scene::Scene scene = square_scene();
+  std::vector<scene::TextureInfo> infos;
+  for (const auto& codes : {gray({255, 0}), gray({255, 0}), gray({255, 1})}) {
+    infos.push_back(test::add_texture(scene, test::picture(2, 1, codes), nearest));
+  }
+  infos.push_back(test::add_texture(scene, test::picture(1, 2, gray({255, 0})), nearest));
+  infos.push_back(test::add_texture(scene, test::picture(2, 1, gray({255, 0}))));  // with mipmaps
+  std::vector<TextureUse> uses;
+  for (const scene::TextureInfo& info : infos) {
+    uses.push_back({.name = "emissive_texture", .info = &info});
+  }
+  uses.push_back({.name = "emissive_texture", .info = infos.data(), .space = scene::ColorSpace::Srgb});
+  Pictures pictures(context->gl());
+  pictures.prepare(scene, uses);
+  EXPECT_EQ(pictures.texture(scene, uses[1]), pictures.texture(scene, uses[0]));
+  for (std::size_t i = 2; i < uses.size(); ++i) {
+    EXPECT_NE(pictures.texture(scene, uses[i]), pictures.texture(scene, uses[0])) << "use " << i;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "scene/gltf.h"
 
 #include <algorithm>
+#include <future>
 #include <iterator>
 #include <string_view>
 
@@ -75,9 +76,11 @@ Scene load_gltf(const std::filesystem::path& file) {
   Placeables placeables;
   placeables.cameras = read_cameras(root);
   placeables.lights = read_lights(root);
+  std::future<std::vector<Picture>> pictures =
+      std::async(std::launch::async, [&] { return decode_images(root, resources, textures.images()); });
   placeables.meshes = read_meshes(root, accessors, scene);
   place_nodes(root, placeables, scene);
-  scene.pictures = decode_images(root, resources, textures.images());
+  scene.pictures = pictures.get();
   return scene;
 }
 
