@@ -24,6 +24,8 @@ struct Case {
   albedo::SheenModel model;  ///< the form of the model that is asked for
   int width = 128;
   int height = 128;
+  std::string environment;  ///< what lights it from everywhere, a name of environments.h; empty: nothing
+  std::string law;          ///< what the case holds a viewer to, in a sentence, with its source; may be empty
 };
 
 /// The model's words, as on the command line: "charlie", "ashikhmin", "refined".

@@ -181,7 +181,11 @@ void add_camera(GlbBuilder& builder, const json& camera, const Case& one) {
       {{"name", "camera"}, {"camera", 0}, {"translation", camera["position"]}, {"rotation", rotation_toward(forward)}});
 }
 
-void add_lights(GlbBuilder& builder, const json& lights) {
+void add_lights(GlbBuilder& builder, const json& lights, std::set<std::string>& extensions_used) {
+  if (lights.empty()) {
+    return;
+  }
+  extensions_used.insert("KHR_lights_punctual");
   json punctual = json::array();
   for (const json& light : lights) {
     const std::string type = light["type"].get<std::string>();
@@ -229,7 +233,7 @@ std::string hash_name(const std::vector<std::uint8_t>& bytes) {
 
 std::vector<std::uint8_t> make_glb(const Case& one) {
   GlbBuilder builder;
-  std::set<std::string> extensions_used = {"KHR_lights_punctual"};
+  std::set<std::string> extensions_used;
   json material = one.description["material"];
   TextureBinder binder(builder, extensions_used);
   binder.bind(material, "material");
@@ -239,7 +243,7 @@ std::vector<std::uint8_t> make_glb(const Case& one) {
   builder.json()["materials"] = json::array({material});
   add_mesh(builder, one.description, binder.needs());
   add_camera(builder, one.description["camera"], one);
-  add_lights(builder, one.description["lights"]);
+  add_lights(builder, one.description["lights"], extensions_used);
   json& root = builder.json();
   json nodes = json::array();
   for (std::size_t i = 0; i < root["nodes"].size(); ++i) {
@@ -247,7 +251,9 @@ std::vector<std::uint8_t> make_glb(const Case& one) {
   }
   root["scenes"] = json::array({{{"name", one.name}, {"nodes", nodes}}});
   root["scene"] = 0;
-  root["extensionsUsed"] = extensions_used;
+  if (!extensions_used.empty()) {
+    root["extensionsUsed"] = extensions_used;
+  }
   return builder.finish();
 }
 

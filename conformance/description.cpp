@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "conformance/case.h"
+#include "conformance/environments.h"
 #include "conformance/pictures.h"
 #include "conformance/shapes.h"
 #include "conformance/sweep.h"
@@ -165,7 +166,8 @@ void check_size(const json& size, const Place& place) {
 
 void check_description(const json& description, const std::string& file, const std::string& element) {
   const Place place{file, element};
-  check_keys(description, {"shape", "node", "vertex_colors", "material", "lights", "camera", "model", "size"}, file, element);
+  check_keys(description, {"shape", "node", "vertex_colors", "material", "lights", "environment", "law", "camera", "model", "size"}, file,
+             element);
   for (const char* key : {"shape", "material", "lights", "camera", "size"}) {
     require(description, key, place);
   }
@@ -179,8 +181,15 @@ void check_description(const json& description, const std::string& file, const s
     place.inside("vertex_colors").fail("must be true or false");
   }
   check_material(description["material"], place.inside("material"));
-  if (!description["lights"].is_array() || description["lights"].empty()) {
-    place.inside("lights").fail("must be an array of at least one light");
+  if (description.contains("environment") &&
+      !(description["environment"].is_string() && is_environment(description["environment"].get<std::string>()))) {
+    place.inside("environment").fail("must be one of " + environment_names());
+  }
+  if (description.contains("law") && !description["law"].is_string()) {
+    place.inside("law").fail("must be a text");
+  }
+  if (!description["lights"].is_array() || (description["lights"].empty() && !description.contains("environment"))) {
+    place.inside("lights").fail("must be an array of at least one light, unless there is an environment");
   }
   for (std::size_t i = 0; i < description["lights"].size(); ++i) {
     check_light(description["lights"][i], place.inside("lights[" + std::to_string(i) + "]"));

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <system_error>
 
@@ -88,6 +90,14 @@ scene::Environment make_environment(const std::string& name) {
     return environment;
   }
   return make_image(name);
+}
+
+const scene::Environment& kept_environment(const std::string& name) {
+  static std::mutex mutex;
+  static std::map<std::string, scene::Environment> kept;
+  const std::lock_guard lock(mutex);
+  const auto found = kept.find(name);
+  return found != kept.end() ? found->second : kept.emplace(name, make_environment(name)).first->second;
 }
 
 std::filesystem::path write_environment(const std::string& name, const std::filesystem::path& folder) {

@@ -15,6 +15,9 @@ std::string environment_names();
 /// The environment of that name, made here; "white" is uniform.
 scene::Environment make_environment(const std::string& name);
 
+/// The environment of that name, made when first asked for and kept. Safe to call from many threads.
+const scene::Environment& kept_environment(const std::string& name);
+
 /// The same as an equirect .exr in a folder, whose name holds what it shows. An old file is kept. Throws image::Error.
 std::filesystem::path write_environment(const std::string& name, const std::filesystem::path& folder);
 

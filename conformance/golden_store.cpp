@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include "conformance/environments.h"
 #include "conformance/glb.h"
 #include "image/io.h"
 
@@ -72,6 +73,10 @@ golden::Settings golden_settings(const Case& one, const albedo::SheenModel& mode
   settings.view.camera = 0;
   settings.sheen = model;
   settings.subpixel_bits = subpixel_bits;
+  if (!one.environment.empty()) {
+    settings.environment = &kept_environment(one.environment);
+    settings.sampling.error = golden_error;
+  }
   return settings;
 }
 
@@ -81,6 +86,12 @@ std::string settings_text(const golden::Settings& settings) {
                      to_string(settings.sheen.scaling);
   if (settings.sheen.model != albedo::Model::Ratified) {
     text.append(" ").append(to_string(settings.sheen.model));
+  }
+  if (settings.environment != nullptr) {
+    text.append(" in ").append(scene::content_hash(*settings.environment));
+    if (settings.environment->is_image()) {
+      text.append(" to ").append(json(settings.sampling.error).dump());
+    }
   }
   return text;
 }

@@ -29,6 +29,9 @@ std::optional<Manifest> read_manifest(const std::filesystem::path& dir);
 /// Writes DIR/manifest.json.
 void write_manifest(const std::filesystem::path& dir, const Manifest& manifest);
 
+/// Relative standard error that 99 % of a golden's pixels meet under an image.
+inline constexpr double golden_error = 0.0025;
+
 /// The settings a golden of the case is computed with.
 golden::Settings golden_settings(const Case& one, const albedo::SheenModel& model, int subpixel_bits);
 /// What of them its radiance depends on, as text: "128x128 camera 0 charlie full"; a model other than the ratified one is named last.

@@ -14,6 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 using albedo::SheenModel;
 
+/// What 4,096 directions a pixel leave, over the suites' materials and environments.
+constexpr double environment_tolerance = 0.02;
+/// No text says how an environment is to be integrated. Further off than this is no approximation of it any more.
+constexpr double most_approximated = 0.5;
+
 bool has_sheen(const scene::Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const scene::Material& material) { return material.sheen.enabled(); });
@@ -94,6 +99,9 @@ void judge_picture(const Case& one, const PreparedCase& prepared, const image::I
   rules.golden_is_pxr24 = prepared.reference.pxr24;
   rules.candidate_is_srgb8 = hello.encoding == Encoding::Srgb8;
   rules.leave_out_mirrored = hello.name != "sheen-cts";
+  if (!one.environment.empty()) {
+    rules.environment_tolerance = environment_tolerance;
+  }
   const image::Image& golden = prepared.reference.image;
   result.verdict = judge(candidate, golden, rules);
   result.status = result.verdict->status;
@@ -111,6 +119,13 @@ void judge_picture(const Case& one, const PreparedCase& prepared, const image::I
     return;
   }
   result.identified = identify_form(one, prepared, candidate, rules, store);
+  if (result.identified.empty() && !one.environment.empty() && result.verdict->p99_rel <= most_approximated) {
+    result.identified = "environment filtered";
+    result.status = Status::Approximation;
+    result.message = "light from everywhere is approximated: 99 % of the values are within " + percent(result.verdict->p99_rel) +
+                     ", the largest error is " + percent(result.verdict->max_rel);
+    return;
+  }
   if (result.identified.empty()) {
     return;
   }
@@ -172,6 +187,7 @@ CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answe
   result.width = one.width;
   result.height = one.height;
   result.scene_file = prepared.scene_file;
+  result.law = one.law;
   result.seconds = answer.seconds;
   if (!prepared.reference.image.data.empty()) {
     keep_golden(images, one.name, prepared.reference.image, result.pictures);

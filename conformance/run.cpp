@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "conformance/case_scene.h"
+#include "conformance/environments.h"
 #include "conformance/glb.h"
 #include "conformance/goldens.h"
 #include "conformance/judge.h"
@@ -159,15 +160,35 @@ class Session {
   }
 
  private:
-  Answer draw(const Case& one, const fs::path& scene_file) {
-    const fs::path output = images_ / (one.name + (hello_.encoding == Encoding::Srgb8 ? ".candidate.png" : ".candidate.exr"));
-    return viewer_.draw({scene_file, 0, one.width, one.height, output, one.model});
+  Answer draw(const Case& one, const fs::path& scene_file) { return draw(one, scene_file, ".candidate", options_.environment_samples); }
+  Answer draw(const Case& one, const fs::path& scene_file, const std::string& kind, int environment_samples) {
+    const fs::path output = images_ / (one.name + kind + (hello_.encoding == Encoding::Srgb8 ? ".png" : ".exr"));
+    const fs::path environment = one.environment.empty() ? fs::path() : write_environment(one.environment, cache_ / "environments");
+    return viewer_.draw({scene_file, 0, one.width, one.height, output, one.model, environment, environment_samples});
   }
   CaseResult hold_to_golden(std::size_t index) {
     const Case& one = suite_.cases[index];
     const PreparedCase prepared = prefetcher_.take(index);
     const Answer answer = prepared.problem.empty() ? draw(one, prepared.scene_file) : Answer{};
-    return judge_case(one, prepared, answer, hello_, store_, images_);
+    CaseResult result = judge_case(one, prepared, answer, hello_, store_, images_);
+    if (!one.environment.empty() && hello_.takes_settings() && options_.environment_samples > 0 &&
+        answer.status == AnswerStatus::Rendered && prepared.problem.empty()) {
+      result.message += (result.message.empty() ? "" : "; ") + realtime_error(one, prepared);
+    }
+    return result;
+  }
+  /// What a viewer that can do both loses where it filters the environment beforehand.
+  std::string realtime_error(const Case& one, const PreparedCase& prepared) {
+    const Answer answer = draw(one, prepared.scene_file, ".realtime", 0);
+    if (answer.status != AnswerStatus::Rendered) {
+      return "the real-time way was not drawn: " + answer.message;
+    }
+    try {
+      const Verdict verdict = judge(image::read(answer.image), prepared.reference.image, {});
+      return "the real-time way: 99 % of the values within " + percent(verdict.p99_rel) + ", the largest error " + percent(verdict.max_rel);
+    } catch (const image::Error& error) {
+      return std::string("the real-time way cannot be read: ") + error.what();
+    }
   }
   Drawing draw_scene(const Case& scene) {
     const fs::path file = write_scene(scene, cache_ / "scenes");

@@ -35,6 +35,7 @@ struct RunOptions {
   std::string precision = "highp";                   ///< "highp" or "mediump", for our own viewer
   std::filesystem::path report;                      ///< folder of the report; made when missing
   bool strict = false;                               ///< approximations count as failures
+  int environment_samples = 4096;                    ///< directions a pixel that our own viewer is to draw; 0: the real-time way
   double start_limit_seconds = 60;                   ///< time a viewer has to say hello
   double case_limit_seconds = 30;                    ///< time a viewer has to answer one request
   std::filesystem::path goldens;                     ///< committed goldens; empty: find_goldens()

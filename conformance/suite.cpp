@@ -109,6 +109,8 @@ Case make_case(SweepPoint point, const std::string& file, const std::string& ele
   made.model.scaling = parse_albedo_scaling(model.value("albedo_scaling", "full"));
   made.width = point.description["size"][0].get<int>();
   made.height = point.description["size"][1].get<int>();
+  made.environment = point.description.value("environment", "");
+  made.law = point.description.value("law", "");
   made.description = std::move(point.description);
   return made;
 }
@@ -182,7 +184,7 @@ std::vector<CaseInfo> list(const std::string& suite_name, const std::string& fil
     }
     const bool is_case = i < suite.cases.size();
     const Relation* relation = is_case ? nullptr : &suite.relations[i - suite.cases.size()];
-    cases.push_back(is_case ? info_of(suite.cases[i], name, "") : info_of(relation->scenes.front(), name, relation->law));
+    cases.push_back(is_case ? info_of(suite.cases[i], name, suite.cases[i].law) : info_of(relation->scenes.front(), name, relation->law));
   }
   return cases;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <vector>
 
@@ -81,6 +82,9 @@ class Judge {
     Sample s;
     s.reference = golden_.at(x, y, channels_.golden.at(c));
     s.bound = golden_.at(x, y, channels_.bound.at(c));
+    if (c < 3) {
+      s.bound += rules_.environment_tolerance * std::max(std::abs(s.reference), 1e-3);
+    }
     if (rules_.golden_is_pxr24) {
       s.bound += std::abs(s.reference) * 0x1p-16;
     }
@@ -205,6 +209,12 @@ std::string to_string(Status status) {
       break;
   }
   return "invalid";
+}
+
+std::string percent(double share) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g %%", 100.0 * share);
+  return text.data();
 }
 
 Verdict judge(const image::Image& candidate, const image::Image& golden, const VerdictRules& rules) {

@@ -38,9 +38,14 @@ struct VerdictRules {
   bool candidate_is_srgb8 = false;
   /// Leave out the pixels of the golden's channel "mirrored" (N.V <= 0, where the choice taken binds our own viewer alone).
   bool leave_out_mirrored = false;
+  /// The candidate's light from everywhere was sampled or filtered: this share of a value (at least of 1e-3) is granted beyond the bound.
+  double environment_tolerance = 0;
   /// A golden with more than this share of its covered pixels excluded judges nothing.
   double most_excluded = 0.02;
 };
+
+/// A share as people read it: "2.51 %".
+std::string percent(double share);
 
 /// Judges a candidate against its golden. A pure function.
 ///

@@ -151,15 +151,17 @@ Answer Viewer::draw(const Request& request) {
 
 Answer Viewer::exchange(const Request& request) {
   const std::string id = std::to_string(++serial_);
-  const json line = {
-      {"id", id},
-      {"scene", request.scene.string()},
-      {"environment", nullptr},
-      {"camera", request.camera},
-      {"width", request.width},
-      {"height", request.height},
-      {"output", request.output.string()},
-      {"settings", {{"visibility", to_string(request.model.visibility)}, {"albedo_scaling", to_string(request.model.scaling)}}}};
+  json line = {{"id", id},
+               {"scene", request.scene.string()},
+               {"environment", request.environment.empty() ? json(nullptr) : json(request.environment.string())},
+               {"camera", request.camera},
+               {"width", request.width},
+               {"height", request.height},
+               {"output", request.output.string()},
+               {"settings", {{"visibility", to_string(request.model.visibility)}, {"albedo_scaling", to_string(request.model.scaling)}}}};
+  if (!request.environment.empty()) {
+    line["settings"]["environment_samples"] = request.environment_samples;
+  }
   const auto begin = std::chrono::steady_clock::now();
   const auto elapsed = [begin] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
   const Deadline deadline = deadline_in(limits_.case_seconds);

@@ -263,6 +263,10 @@ Action declare_run(CLI::App& app) {
   add_path(app, "--report", options->report, "Folder of the report (sheen-cts-report/SUITE)")->type_name("DIR");
   add_path(app, "--goldens", options->goldens, "Folder of the committed goldens (those that came with this program)")->type_name("DIR");
   app.add_flag("--strict", options->strict, "Approximations count as failures");
+  app.add_option("--environment-samples", options->environment_samples,
+                 "Directions a pixel that our own viewer draws toward an environment; 0: the real-time way")
+      ->check(CLI::Range(0, 1 << 24))
+      ->capture_default_str();
   return [options] { return run(*options); };
 }
 

@@ -97,6 +97,7 @@ struct RunOptions : ListOptions {
   std::filesystem::path report;   ///< empty: sheen-cts-report/SUITE in the current folder
   std::filesystem::path goldens;  ///< empty: those installed or, in a build tree, the source's
   bool strict = false;
+  int environment_samples = 4096;  ///< directions a pixel that our own viewer draws; 0: the real-time way
 };
 
 struct GoldensOptions : Common {
