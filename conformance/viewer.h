@@ -39,8 +39,8 @@ struct Request {
   int height = 0;
   std::filesystem::path output;
   albedo::SheenModel model;
-  std::filesystem::path environment;  ///< an equirect; empty: none
-  int environment_samples = 0;        ///< for a viewer that takes settings
+  std::filesystem::path environment{};  ///< an equirect; empty: none
+  int environment_samples = 0;          ///< for a viewer that takes settings
 };
 
 enum class AnswerStatus { Rendered, Unsupported, Failed, Crash, Timeout, Invalid };
