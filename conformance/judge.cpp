@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "conformance/case_scene.h"
+#include "conformance/nearest_rank.h"
 #include "image/io.h"
 #include "scene/gltf.h"
 
@@ -65,7 +66,24 @@ std::string identify_form(const Case& one, const PreparedCase& prepared, const i
   return "";
 }
 
-image::Image for_display(const image::Image& from) {
+/// Stops by which a picture is shown darker, so that all but 2 % of its values can be told apart: whole ones, 0 for most.
+int stops_too_bright(const image::Image& picture) {
+  std::vector<double> values;
+  for (const char* name : {"R", "G", "B"}) {
+    const int c = picture.channel(name);
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) {
+        if (picture.at(x, y, c) > 0) {
+          values.push_back(picture.at(x, y, c));
+        }
+      }
+    }
+  }
+  const double bright = nearest_rank(values, 0.98);
+  return bright > 1 ? static_cast<int>(std::ceil(std::log2(bright))) : 0;
+}
+
+image::Image for_display(const image::Image& from, int darker) {
   const bool alpha = from.channel("A") >= 0;
   image::Image kept(from.width, from.height,
                     alpha ? std::vector<std::string>{"R", "G", "B", "A"} : std::vector<std::string>{"R", "G", "B"});
@@ -76,21 +94,22 @@ image::Image for_display(const image::Image& from) {
     }
     for (int y = 0; y < from.height; ++y) {
       for (int x = 0; x < from.width; ++x) {
-        kept.at(x, y, static_cast<int>(c)) = from.at(x, y, source);
+        kept.at(x, y, static_cast<int>(c)) = std::ldexp(from.at(x, y, source), c < 3 ? -darker : 0);
       }
     }
   }
   return kept;
 }
 
-std::vector<std::uint8_t> keep_bytes(const fs::path& file, const image::Image& picture) {
-  image::write(file, for_display(picture));
-  return image::encode_png(for_display(picture));
+std::vector<std::uint8_t> keep_bytes(const fs::path& file, const image::Image& picture, int darker) {
+  const image::Image shown = for_display(picture, darker);
+  image::write(file, shown);
+  return image::encode_png(shown);
 }
 
-void keep_golden(const fs::path& images, const std::string& name, const image::Image& golden, CasePictures& pictures) {
+void keep_golden(const fs::path& images, const std::string& name, const image::Image& golden, int darker, CasePictures& pictures) {
   image::write(images / (name + ".golden.exr"), golden);
-  pictures.golden = keep_bytes(images / (name + ".golden.png"), golden);
+  pictures.golden = keep_bytes(images / (name + ".golden.png"), golden, darker);
 }
 
 void judge_picture(const Case& one, const PreparedCase& prepared, const image::Image& candidate, const Hello& hello,
@@ -155,13 +174,13 @@ Status status_of(AnswerStatus status) {
 }
 
 std::vector<std::uint8_t> keep_candidate(const fs::path& images, const std::string& name, const fs::path& source,
-                                         const image::Image& candidate) {
+                                         const image::Image& candidate, int darker) {
   const fs::path exr = images / (name + ".candidate.exr");
   std::error_code error;
   if (!fs::equivalent(source, exr, error)) {
     image::write(exr, candidate);
   }
-  return keep_bytes(images / (name + ".candidate.png"), candidate);
+  return keep_bytes(images / (name + ".candidate.png"), candidate, darker);
 }
 
 PreparedCase prepare_case(const Case& one, const GoldenStore& store, const fs::path& scenes, int subpixel_bits) {
@@ -189,8 +208,10 @@ CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answe
   result.scene_file = prepared.scene_file;
   result.law = one.law;
   result.seconds = answer.seconds;
+  int darker = 0;
   if (!prepared.reference.image.data.empty()) {
-    keep_golden(images, one.name, prepared.reference.image, result.pictures);
+    darker = one.environment.empty() ? 0 : stops_too_bright(prepared.reference.image);
+    keep_golden(images, one.name, prepared.reference.image, darker, result.pictures);
   }
   if (!prepared.problem.empty()) {
     result.message = prepared.problem;
@@ -208,8 +229,12 @@ CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answe
     result.message = std::string("the picture cannot be read: ") + error.what();
     return result;
   }
-  result.pictures.candidate = keep_candidate(images, one.name, answer.image, candidate);
+  result.pictures.candidate = keep_candidate(images, one.name, answer.image, candidate, darker);
   judge_picture(one, prepared, candidate, hello, store, result);
+  if (darker > 0) {
+    result.message +=
+        (result.message.empty() ? "" : "; ") + ("shown " + std::to_string(darker)) + (darker == 1 ? " stop" : " stops") + " darker";
+  }
   return result;
 }
 

@@ -65,9 +65,10 @@ CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answe
 /// What a viewer's answer without a picture makes of a case.
 Status status_of(AnswerStatus status);
 
-/// Writes a candidate to images/NAME.candidate.exr (unless the viewer has) and .png. Returns the bytes of the latter. Throws image::Error.
+/// Writes a candidate to images/NAME.candidate.exr (unless the viewer has) and .png, that one `darker` stops darker. Returns the bytes of
+/// the latter. Throws image::Error.
 std::vector<std::uint8_t> keep_candidate(const std::filesystem::path& images, const std::string& name, const std::filesystem::path& source,
-                                         const image::Image& candidate);
+                                         const image::Image& candidate, int darker = 0);
 
 /// The difference as the report paints it: error over bound, dark green to yellow up to 1, red to white above, blue-grey where left out.
 image::Image paint_ratios(const std::vector<double>& ratios, int width, int height);

@@ -21,7 +21,8 @@ const int DRAW_COAT = 2;
 #endif
 #ifdef SHEEN
 const int DRAW_SHEEN = DRAWS_WITH_COAT;
-#define DRAWS_WITH_SHEEN (DRAWS_WITH_COAT + 1)
+const int DRAW_RIM = DRAWS_WITH_COAT + 1;
+#define DRAWS_WITH_SHEEN (DRAWS_WITH_COAT + 2)
 #else
 #define DRAWS_WITH_SHEEN DRAWS_WITH_COAT
 #endif
@@ -86,6 +87,20 @@ float density_sheen(LayerView view, float sheenRoughness, vec3 L) {
     vec3 H = normalize_or(L + view.V, view.N);
     return sheen_distribution(view.N, H, sheenRoughness) * abs(dot(view.N, H)) / (4.0 * max(dot(view.V, H), 1e-30));
 }
+
+// Seen from above, half vectors send nearly every light below the horizon. There D is ((1 - N.L) / 2)^p, p = 1 / (2 alpha_g): that is drawn.
+vec3 draw_rim(LayerView view, float sheenRoughness, vec2 u) {
+    float p = 0.5 / (sheenRoughness * sheenRoughness);
+    float below = exp2(log2(max(1.0 - u.x, 1e-30)) / (p + 1.0)); // 1 - N.L
+    float phi = 2.0 * PI * u.y;
+    return frame_around(view.N) * vec3(sqrt(below * (2.0 - below)) * vec2(cos(phi), sin(phi)), 1.0 - below);
+}
+
+float density_rim(LayerView view, float sheenRoughness, vec3 L) {
+    float p = 0.5 / (sheenRoughness * sheenRoughness);
+    float NdotL = dot(view.N, L);
+    return NdotL > 0.0 ? (p + 1.0) * exp2(p * log2(max(1.0 - NdotL, 1e-30))) / (2.0 * PI) : 0.0;
+}
 #endif
 
 #ifdef ENVIRONMENT_IMAGE
@@ -103,7 +118,7 @@ bool draws(Surface surface, int way) {
     if (way == DRAW_COAT) return surface.clearcoat_alpha >= MIRROR_ALPHA && surface.k > 0.0;
 #endif
 #ifdef SHEEN
-    if (way == DRAW_SHEEN) return surface.sheen.sheenRoughness > SMALLEST_DRAWN_SHEEN_ROUGHNESS;
+    if (way == DRAW_SHEEN || way == DRAW_RIM) return surface.sheen.sheenRoughness > SMALLEST_DRAWN_SHEEN_ROUGHNESS;
 #endif
     return true;
 }
@@ -117,6 +132,7 @@ vec3 drawn_direction(Surface surface, int way, int i) {
 #endif
 #ifdef SHEEN
     if (way == DRAW_SHEEN) return draw_sheen(surface.view, surface.sheen.sheenRoughness, u);
+    if (way == DRAW_RIM) return draw_rim(surface.view, surface.sheen.sheenRoughness, u);
 #endif
 #ifdef ENVIRONMENT_IMAGE
     if (way == DRAW_IMAGE) return texelFetch(u_environment_points, place + ivec2(0, 1), 0).xyz * u_environment_from_view;
@@ -133,7 +149,9 @@ float density_of_all(Surface surface, vec3 L) {
     if (draws(surface, DRAW_COAT)) sum += density_ggx(surface.coat_view, surface.clearcoat_alpha, L);
 #endif
 #ifdef SHEEN
-    if (draws(surface, DRAW_SHEEN)) sum += density_sheen(surface.view, surface.sheen.sheenRoughness, L);
+    if (draws(surface, DRAW_SHEEN)) {
+        sum += density_sheen(surface.view, surface.sheen.sheenRoughness, L) + density_rim(surface.view, surface.sheen.sheenRoughness, L);
+    }
 #endif
 #ifdef ENVIRONMENT_IMAGE
     sum += density_image(L);
