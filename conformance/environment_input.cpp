@@ -1,5 +1,6 @@
 #include "conformance/environment_input.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -8,6 +9,7 @@
 
 #include "conformance/parse_numbers.h"
 #include "image/io.h"
+#include "image/rgb_channels.h"
 #include "scene/scene.h"
 
 namespace sheen::conformance {
@@ -15,13 +17,23 @@ namespace {
 
 scene::Environment read_equirect(const std::string& file) {
   const image::Image picture = image::read(file);
+  std::array<int, 3> rgb{};
+  try {
+    rgb = image::rgb_channels(picture, "an environment");
+  } catch (const image::Error& error) {
+    std::string held;
+    for (const std::string& name : picture.channels) {
+      held += (held.empty() ? "" : ", ") + name;
+    }
+    throw image::Error(file + ": " + error.what() + "; it has " + held);
+  }
   scene::Environment environment;
   environment.width = picture.width;
   environment.height = picture.height;
   environment.texels.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      const glm::vec3 texel(picture.at(x, y, 0), picture.at(x, y, 1), picture.at(x, y, 2));
+      const glm::vec3 texel(picture.at(x, y, rgb[0]), picture.at(x, y, rgb[1]), picture.at(x, y, rgb[2]));
       for (int c = 0; c < 3; ++c) {
         if (!(texel[c] >= 0.0F) || !std::isfinite(texel[c])) {
           throw scene::Error(file, "pixel " + std::to_string(x) + ", " + std::to_string(y), "radiance must be finite and not negative");

@@ -6,6 +6,7 @@
 
 #include "conformance/environment_input.h"
 #include "conformance/test_folder.h"
+#include "image/io.h"
 
 namespace sheen::conformance {
 namespace {
@@ -22,6 +23,18 @@ TEST(Environments, AFileHoldsWhatIsMadeAndIsWrittenOnce) {
   const scene::Environment white = read_environment(write_environment("white", folder.path()).string());
   EXPECT_EQ(make_environment("white").uniform, glm::dvec3(1.0));
   EXPECT_EQ(white.radiance({0.6, 0.0, 0.8}), glm::dvec3(1.0));
+}
+
+TEST(Environments, APictureWithoutColorIsNone) {
+  const TestFolder folder;
+  const std::string file = (folder.path() / "layered.exr").string();
+  image::write(file, image::Image(2, 1, {"beauty.B", "beauty.G", "beauty.R"}));
+  try {
+    read_environment(file);
+    ADD_FAILURE() << "read by position";
+  } catch (const image::Error& error) {
+    EXPECT_EQ(std::string(error.what()), file + ": an environment needs the channels R, G and B; it has beauty.B, beauty.G, beauty.R");
+  }
 }
 
 TEST(Environments, TheSunIsSmallBrightAndWhereTheHazyOneIs) {

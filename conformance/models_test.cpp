@@ -67,6 +67,8 @@ constexpr const char* sweep = R"({
                            "KHR_materials_specular": {"specularFactor": 0.7, "specularColorFactor": [1.0, 0.6, 0.3]}}}}},
           {"label": "ior_zero", "patch": {"material": {"pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.5},
             "extensions": {"KHR_materials_ior": {"ior": 0.0}}}}},
+          {"label": "a_smooth_metal_in_the_sun", "patch": {"material": {"pbrMetallicRoughness": {"metallicFactor": 1.0, "roughnessFactor": 0.05}},
+            "lights": [{"type": "directional", "toward": [1.0, 1.0, 1.0], "intensity": 1e5}]}},
           {"label": "textures", "patch": {"shape": "cloth", "material": {
             "pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": "weave/linear"}, "baseColorTexture": {"index": "channels/linear"}},
             "extensions": {"KHR_materials_sheen": {"sheenColorTexture": {"index": "weave/linear"},

@@ -24,5 +24,6 @@ vec3 base_times_NdotL(BaseMaterial material, vec3 N, vec3 V, vec3 H, float NdotL
     vec3 dielectric = (1.0 - Fd) * diffuse + Fd * lobe;
 #endif
     vec3 Fm = material.baseColor + (1.0 - material.baseColor) * w;
-    return mix(dielectric, Fm * lobe, material.metallic);
+    // Not mix(): as x + (y - x) a it leaves of a smooth metal's faint lobe no more than a last digit of the dielectric it takes away.
+    return dielectric * (1.0 - material.metallic) + Fm * lobe * material.metallic;
 }

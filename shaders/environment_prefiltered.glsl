@@ -86,7 +86,7 @@ vec3 base_environment(BaseMaterial material, LayerView view, float roughness) {
     float through = base_transmitted(material.view, max3(F0), strength, max3(F_ms));
     vec3 dielectric = strength * (F0 * scale + bias) * specular + (F_ms * missing + through * material.baseColor) * diffuse;
     vec3 metal = (material.baseColor * scale + bias) * specular + metal_F_ms * missing * diffuse;
-    return mix(dielectric, metal, material.metallic);
+    return dielectric * (1.0 - material.metallic) + metal * material.metallic;
 }
 #else
 // The base of glTF 2.0, Appendix B.2. Its Fresnel terms are affine in w, so the split sums hold for every colour.

@@ -42,8 +42,10 @@ double directional_albedo(Visibility visibility, double n_dot_v, double sheen_ro
 std::vector<double> evaluate_grid(Visibility visibility, const std::vector<double>& n_dot_v, const std::vector<double>& sheen_roughness) {
   std::vector<double> result(n_dot_v.size() * sheen_roughness.size());
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t k) {
-    const double r = sheen_roughness[k / n_dot_v.size()];
-    result[k] = std::exp(log_directional_albedo_fast(visibility, n_dot_v[k % n_dot_v.size()], r));
+    const double mu = n_dot_v[k % n_dot_v.size()], r = sheen_roughness[k / n_dot_v.size()];
+    // The fast way's 4e-7 of an E up to 2 is below 1e-6; beyond, and nearer to grazing, the full way's 3e-7.
+    const double fast = mu >= 0.004 ? std::exp(log_directional_albedo_fast(visibility, mu, r)) : 3.0;
+    result[k] = fast <= 2.0 ? fast : directional_albedo(visibility, mu, r);
   });
   return result;
 }

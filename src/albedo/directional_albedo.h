@@ -18,7 +18,7 @@ double log_directional_albedo(Visibility visibility, double n_dot_v, double shee
 /// The same to a relative 1e-6 (4e-7 for n_dot_v >= 0.004), at twice the speed.
 double log_directional_albedo_fast(Visibility visibility, double n_dot_v, double sheen_roughness);
 
-/// E on the grid of all cosines and roughnesses given, on all threads, by log_directional_albedo_fast:
+/// E on the grid of all cosines and roughnesses given, each to 1e-6 (to 3e-7 of itself where it is above 2), on all threads:
 /// result[j * n_dot_v.size() + i] = E(n_dot_v[i], sheen_roughness[j]).
 std::vector<double> evaluate_grid(Visibility visibility, const std::vector<double>& n_dot_v, const std::vector<double>& sheen_roughness);
 

@@ -17,8 +17,8 @@
 //  second derivative
 //    of Lambda jumps, and at mu, where for p of order 1 the integrand has a conical point (N.H = 1); each panel by tanh-sinh, whose nodes
 //    crowd at both ends, because Charlie's V goes like lambda^0.2 at 0;
-//  - phi = 2 atan(epsilon tan(psi/2)) widens the peak of width 1/sqrt(p kappa) to order 1, psi = pi (1 - x^2) crowds nodes at the conical
-//    point, and Gauss-Legendre integrates over x.
+//  - phi = 2 atan(epsilon tan(psi/2)) widens the peak of width 1/sqrt(p kappa) to order 1, psi = pi (1 - x^2), or x^3, crowds nodes at the
+//    conical point, and Gauss-Legendre integrates over x.
 
 namespace sheen::albedo {
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <new>
 #include <vector>
 
 #include <ImfChannelList.h>
@@ -81,9 +82,15 @@ std::string decode_exr(const std::filesystem::path& path, RawPicture& out) {
   try {
     Imf::InputFile file(path.c_str(), 0);
     return read_pixels(file, out);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     // The library begins its message with the file's name, as our caller does.
     std::string why = e.what();
+    const std::string name = '"' + path.string() + "\". ";
+    if (const std::size_t at = why.find(name); at != std::string::npos) {
+      why.erase(0, at + name.size());
+    }
     std::replace(why.begin(), why.end(), '\n', ' ');
     return why.empty() ? "its data is corrupt" : why;
   }

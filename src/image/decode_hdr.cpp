@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <memory>
+#include <system_error>
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -37,24 +39,37 @@ struct Endless {
   static int at_end(void* /*user*/) { return 0; }
 };
 
+constexpr const char* ends_early = "its data ends early, or is in the old runs of whole pixels, which are not read";
+
 }  // namespace
 
 std::string decode_hdr(const std::filesystem::path& path, RawPicture& out) {
-  Endless file{std::ifstream(path, std::ios::binary)};
   const stbi_io_callbacks callbacks = {Endless::read, Endless::skip, Endless::at_end};
   int in_file = 0;
+  Endless header{std::ifstream(path, std::ios::binary)};
+  if (stbi_info_from_callbacks(&callbacks, &header, &out.width, &out.height, &in_file) == 0) {
+    return std::string("must be a Radiance picture of FORMAT=32-bit_rle_rgbe with its rows from the top (-Y HEIGHT +X WIDTH)");
+  }
+  // Before a damaged header makes anybody ask for memory: a line is four bytes and two for every run of 127 of each component, at least.
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  const std::uintmax_t least = 4 + 8 * ((static_cast<std::uintmax_t>(std::max(out.width, 0)) + 126) / 127);
+  if (sample_count(out.width, out.height, 3) == 0) {
+    return "its header gives an impossible size";
+  }
+  if (!error && out.width >= 8 && size < least * static_cast<std::uintmax_t>(out.height)) {
+    return ends_early;
+  }
+  Endless file{std::ifstream(path, std::ios::binary)};
   const std::unique_ptr<float, void (*)(void*)> values(stbi_loadf_from_callbacks(&callbacks, &file, &out.width, &out.height, &in_file, 3),
                                                        stbi_image_free);
   if (!values) {
     return stbi_failure_reason();
   }
   if (file.overrun) {
-    return "its data ends early";
+    return ends_early;
   }
   const std::size_t count = sample_count(out.width, out.height, 3);
-  if (count == 0) {
-    return "its header gives an impossible size";
-  }
   out.channels = {"R", "G", "B"};
   out.values.assign(values.get(), values.get() + count);
   return {};

@@ -32,7 +32,8 @@ TEST(DecodeHdr, AFlatHdrIsReadAndACutOneIsNot) {
     EXPECT_EQ((std::vector<float>(image.values.end() - 3, image.values.end())), (std::vector<float>{1.0f, 0.5f, 255.0f / 128}));
     for (std::size_t missing = 1; missing <= 9; ++missing) {
       put(folder / "cut.hdr", radiance(width, 2, pixels.substr(0, pixels.size() - missing)));
-      EXPECT_EQ(decode_hdr(folder / "cut.hdr", image), "its data ends early") << width << " wide, " << missing << " bytes short";
+      EXPECT_EQ(decode_hdr(folder / "cut.hdr", image).substr(0, 19), "its data ends early")
+          << width << " wide, " << missing << " bytes short";
     }
   }
 }
@@ -53,6 +54,18 @@ TEST(DecodeHdr, ARunLengthEncodedHdrIsReadAndADamagedOneEnds) {
   for (std::size_t kept = 0; kept < head.size() + runs.size(); ++kept) {
     put(folder / "cut.hdr", radiance(8, 1, (head + runs).substr(0, kept)));
     EXPECT_NE(decode_hdr(folder / "cut.hdr", image), "") << kept << " bytes";
+  }
+}
+
+TEST(DecodeHdr, AHeaderThatClaimsMoreThanTheFileHoldsIsRefusedBeforeItIsBelieved) {
+  const TestFolder folder;
+  RawPicture image;
+  put(folder / "huge.hdr", radiance(13300, 13300, std::string(400, '\x80')));
+  EXPECT_EQ(decode_hdr(folder / "huge.hdr", image).substr(0, 19), "its data ends early");
+  EXPECT_TRUE(image.values.empty());
+  for (const char* header : {"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+Y 1 +X 1\n"}) {
+    put(folder / "other.hdr", std::string(header) + std::string("\x80\x40\xff\x81", 4));
+    EXPECT_NE(decode_hdr(folder / "other.hdr", image).find("FORMAT=32-bit_rle_rgbe with its rows from the top"), std::string::npos);
   }
 }
 

@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

@@ -21,7 +21,7 @@ void append(void* to, void* bytes, int count) {
 }  // namespace
 
 std::vector<std::uint8_t> encode_hdr(const Image& image) {
-  constexpr float largest = 1.7e38f;  // (255/256) 2^127
+  constexpr float largest = 1.69e38f;  // a little below (255/256) 2^127
   const std::array<int, 3> rgb = rgb_channels(image, "an .hdr file");
   std::vector<float> colors;
   colors.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cerrno>
 #include <fstream>
+#include <map>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -51,7 +53,12 @@ const Module& module_for(const std::filesystem::path& file) {
 /// Grey pictures become colour: Y (or one nameless channel) is given to R, G and B.
 void expand_grey(RawPicture& raw) {
   const std::size_t channels = raw.channels.size();
-  if (channels > 2 || raw.channels[0] != "Y" || (channels == 2 && raw.channels[1] != "A")) {
+  const auto place = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(raw.channels.begin(), raw.channels.end(), name) - raw.channels.begin());
+  };
+  const std::size_t grey = place("Y");
+  const std::size_t alpha = place("A");
+  if (grey == channels || (channels == 2 && alpha == channels) || channels > 2) {
     return;
   }
   const std::size_t pixels = static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
@@ -59,7 +66,7 @@ void expand_grey(RawPicture& raw) {
     std::remove_reference_t<decltype(values)> out(pixels * (channels + 2));
     for (std::size_t i = 0; i < pixels; ++i) {
       for (std::size_t c = 0; c < channels + 2; ++c) {
-        out[i * (channels + 2) + c] = values[i * channels + (c < 3 ? 0 : 1)];
+        out[i * (channels + 2) + c] = values[i * channels + (c < 3 ? grey : alpha)];
       }
     }
     values = std::move(out);
@@ -69,7 +76,6 @@ void expand_grey(RawPicture& raw) {
   } else {
     expand(raw.codes);
   }
-  raw.channels.resize(1);
   raw.channels = channels == 2 ? std::vector<std::string>{"R", "G", "B", "A"} : std::vector<std::string>{"R", "G", "B"};
 }
 
@@ -122,15 +128,35 @@ void decode_codes(RawPicture& raw) {
   raw.codes.clear();
 }
 
-/// OpenImageIO's name of a format that it reads for us.
-const char* format_of(const std::string& extension) {
-  if (extension == ".png") {
-    return "png";
+using Decode = std::string (*)(const std::filesystem::path& file, RawPicture& out);
+
+std::string decode_png(const std::filesystem::path& file, RawPicture& out) {
+  std::string why = png_flaw(file);
+  return why.empty() ? module_for(file).read(file.c_str(), "png", out) : why;
+}
+
+std::string decode_jpeg(const std::filesystem::path& file, RawPicture& out) {
+  return module_for(file).read(file.c_str(), "jpeg", out);
+}
+
+/// What reads a format other than .pfm; nullptr for an extension that is none.
+Decode decoder_of(const std::string& extension) {
+  static const std::map<std::string, Decode> decoders = {
+      {".exr", decode_exr}, {".hdr", decode_hdr}, {".png", decode_png}, {".jpg", decode_jpeg}, {".jpeg", decode_jpeg}};
+  const auto found = decoders.find(extension);
+  return found == decoders.end() ? nullptr : found->second;
+}
+
+Image decode_with(Decode decode, const std::filesystem::path& file) {
+  RawPicture raw;
+  if (const std::string why = decode(file, raw); !why.empty()) {
+    throw Error(file.string() + ": cannot be read: " + why);
   }
-  if (extension == ".jpg" || extension == ".jpeg") {
-    return "jpeg";
+  expand_grey(raw);
+  if (raw.bits != 0) {
+    decode_codes(raw);
   }
-  return nullptr;
+  return in_order(raw);
 }
 
 void require_sound(const std::filesystem::path& file, const Image& image) {
@@ -168,31 +194,16 @@ std::vector<std::uint8_t> encode_for(const std::filesystem::path& file, const Im
 
 Image read(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
-  const char* format = format_of(extension);
-  if (format == nullptr && extension != ".pfm" && extension != ".exr" && extension != ".hdr") {
+  const Decode decode = decoder_of(extension);
+  if (decode == nullptr && extension != ".pfm") {
     throw Error(file.string() + ": cannot be read: unknown extension (known: .exr .hdr .pfm .png .jpg .jpeg)");
   }
   require_readable(file);
-  if (extension == ".pfm") {
-    return read_pfm(file);
+  try {
+    return extension == ".pfm" ? read_pfm(file) : decode_with(decode, file);
+  } catch (const std::bad_alloc&) {
+    throw Error(file.string() + ": cannot be read: there is no memory for a picture as large as its header says");
   }
-  RawPicture raw;
-  std::string why = extension == ".png" ? png_flaw(file) : std::string();
-  if (extension == ".exr") {
-    why = decode_exr(file, raw);
-  } else if (extension == ".hdr") {
-    why = decode_hdr(file, raw);
-  } else if (why.empty()) {
-    why = module_for(file).read(file.c_str(), format, raw);
-  }
-  if (!why.empty()) {
-    throw Error(file.string() + ": cannot be read: " + why);
-  }
-  expand_grey(raw);
-  if (raw.bits != 0) {
-    decode_codes(raw);
-  }
-  return in_order(raw);
 }
 
 void write(const std::filesystem::path& file, const Image& image, ExrCompression compression) {

@@ -138,6 +138,10 @@ TEST(ImageIo, ALuminanceExrBecomesColour) {
   const Image image = read(folder / "grey.exr");
   ASSERT_EQ(image.channels, (Names{"R", "G", "B"}));
   EXPECT_EQ(image.data, (std::vector<float>{1, 1, 1, 2, 2, 2}));
+  put(folder / "covered.exr", half_exr({"A", "Y"}, {0, 0, 1, 0}, {0, 0, 1, 0}, {{0x3c00, 0x3800, 0x4000, 0x3c00}}));
+  const Image covered = read(folder / "covered.exr");
+  ASSERT_EQ(covered.channels, (Names{"R", "G", "B", "A"}));
+  EXPECT_EQ(covered.data, (std::vector<float>{2, 2, 2, 1, 1, 1, 1, 0.5f}));
 }
 
 TEST(ImageIo, AHeaderThatClaimsTheWorldIsAnErrorAndNotOutOfMemory) {

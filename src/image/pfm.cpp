@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include "image/io.h"
 
@@ -71,8 +73,15 @@ float float_at(const char* bytes, bool little_endian) {
 
 Image read_pfm(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::vector<char> bytes(std::filesystem::file_size(file));
-  if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+  std::error_code unknown;  // of what is no regular file
+  std::vector<char> bytes;
+  if (const std::uintmax_t size = std::filesystem::file_size(file, unknown); !unknown) {
+    bytes.resize(size);
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  } else {
+    bytes.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  }
+  if (stream.bad() || (!unknown && !stream)) {
     throw Error(file.string() + ": cannot be read");
   }
   const Header header = parse_header(file, bytes);

@@ -73,7 +73,8 @@ void Pictures::prepare(const scene::Scene& scene, const std::vector<TextureUse>&
       keys.push_back(key);
     }
   }
-  // No more pictures at once than there are processors: each takes 16 bytes a texel while it waits for its upload.
+  // No more pictures at once than there are processors: each takes 16 bytes a texel, with its
+  // mipmaps 21, while it waits for its upload.
   const auto at_once = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   for (std::size_t first = 0; first < keys.size(); first += at_once) {
     std::vector<std::vector<scene::Texels>> levels(std::min(at_once, keys.size() - first));
