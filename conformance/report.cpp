@@ -86,6 +86,9 @@ std::string figures(const CaseResult& one) {
     html += figure(one.scenes.empty() ? "error / bound" : "deviation / tolerance", number(v.bound_ratio)) +
             figure("max abs", number(v.max_abs)) + figure("max rel", number(v.max_rel)) + figure("p99 rel", number(v.p99_rel)) +
             figure("compared", std::to_string(v.compared_pixels)) + figure("excluded", std::to_string(v.excluded_pixels));
+    if (v.vague_pixels > 0) {
+      html += figure("vague", std::to_string(v.vague_pixels));
+    }
     if (v.nonfinite_pixels > 0) {
       html += figure("NaN or Inf", std::to_string(v.nonfinite_pixels));
     }

@@ -26,6 +26,7 @@ json case_json(const CaseResult& one) {
   made["bound_ratio"] = figure(&Verdict::bound_ratio);
   made["compared_pixels"] = figure(&Verdict::compared_pixels);
   made["excluded_pixels"] = figure(&Verdict::excluded_pixels);
+  made["vague_pixels"] = figure(&Verdict::vague_pixels);
   made["nonfinite_pixels"] = figure(&Verdict::nonfinite_pixels);
   if (verdict != nullptr && verdict->worst_x >= 0) {
     made["worst_pixel"] = {verdict->worst_x, verdict->worst_y};

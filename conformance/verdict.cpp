@@ -75,6 +75,14 @@ class Judge {
     return std::all_of(channels_.candidate.begin(), channels_.candidate.end(),
                        [&](int c) { return c < 0 || std::isfinite(candidate_.at(x, y, c)); });
   }
+  std::size_t exclusion(int x, int y) const {
+    return static_cast<std::size_t>(std::clamp(golden_.at(x, y, channels_.excluded), 0.0F, 3.0F));
+  }
+  /// The brightest channel of the golden, and its bound.
+  Sample brightest(int x, int y) const {
+    std::array<Sample, 3> colors = {sample(x, y, 0), sample(x, y, 1), sample(x, y, 2)};
+    return *std::max_element(colors.begin(), colors.end(), [](const Sample& a, const Sample& b) { return a.reference < b.reference; });
+  }
   std::size_t channel_count() const { return channels_.candidate[3] >= 0 ? 4 : 3; }
 
   Sample sample(int x, int y, std::size_t c) const {
@@ -128,6 +136,21 @@ bool covers_any(const image::Image& image, int alpha) {
   return false;
 }
 
+std::int64_t count_vague(const Judge& judge, const image::Image& golden) {
+  double sum = 0;
+  std::vector<Sample> compared;
+  for (int y = 0; y < golden.height; ++y) {
+    for (int x = 0; x < golden.width; ++x) {
+      if (judge.covered(x, y) && !judge.excluded(x, y) && !judge.mirrored(x, y)) {
+        compared.push_back(judge.brightest(x, y));
+        sum += compared.back().reference;
+      }
+    }
+  }
+  const double shows = 0.1 * sum / static_cast<double>(std::max<std::size_t>(compared.size(), 1));
+  return std::count_if(compared.begin(), compared.end(), [&](const Sample& s) { return s.bound > s.reference && s.bound > shows; });
+}
+
 void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
   std::vector<double> relative;
   for (int y = 0; y < golden.height; ++y) {
@@ -141,6 +164,7 @@ void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
       }
       if (judge.excluded(x, y)) {
         ++verdict.excluded_pixels;
+        ++verdict.excluded_by.at(judge.exclusion(x, y));
         continue;
       }
       if (judge.mirrored(x, y)) {
@@ -165,6 +189,22 @@ void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
     }
   }
   verdict.p99_rel = nearest_rank(relative, 0.99);
+  verdict.vague_pixels = count_vague(judge, golden);
+}
+
+/// "1205 of 4096 covered pixels are excluded, more than may be: 1200 ..."
+std::string too_many_excluded(const Verdict& verdict, std::int64_t covered) {
+  std::string text =
+      std::to_string(verdict.excluded_pixels) + " of " + std::to_string(covered) + " covered pixels are excluded, more than may be";
+  constexpr std::array<const char*, 4> reasons = {nullptr, "at edges", "where an alpha mask may fall either way",
+                                                  "where a texture without mipmaps is seen from too far"};
+  std::string parts;
+  for (std::size_t reason = 1; reason < reasons.size(); ++reason) {
+    if (verdict.excluded_by.at(reason) > 0) {
+      parts += (parts.empty() ? ": " : ", ") + std::to_string(verdict.excluded_by.at(reason)) + " " + reasons.at(reason);
+    }
+  }
+  return text + parts;
 }
 
 void decide(const VerdictRules& rules, Verdict& verdict) {
@@ -180,10 +220,12 @@ void decide(const VerdictRules& rules, Verdict& verdict) {
   } else if (covered == 0) {
     verdict.message = "neither image covers a pixel";
   } else if (verdict.compared_pixels == 0) {
-    verdict.message = "every covered pixel is left out of the comparison";
+    verdict.message = "every covered pixel is left out of the comparison: " + too_many_excluded(verdict, covered);
   } else if (static_cast<double>(verdict.excluded_pixels) > rules.most_excluded * static_cast<double>(covered)) {
-    verdict.message =
-        std::to_string(verdict.excluded_pixels) + " of " + std::to_string(covered) + " covered pixels are excluded, more than may be";
+    verdict.message = too_many_excluded(verdict, covered);
+  } else if (static_cast<double>(verdict.vague_pixels) > rules.most_vague * static_cast<double>(verdict.compared_pixels)) {
+    verdict.message = "at " + std::to_string(verdict.vague_pixels) + " of " + std::to_string(verdict.compared_pixels) +
+                      " compared pixels the bound would let black pass: this scene leaves too much to the driver to judge by it";
   } else {
     verdict.status = Status::Pass;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,7 +24,13 @@ struct Verdict {
   int worst_x = -1;        ///< the pixel of bound_ratio, rows from the top; -1 when nothing was compared
   int worst_y = -1;
   std::int64_t compared_pixels = 0;
-  std::int64_t excluded_pixels = 0;   ///< covered by either image, and left out since rasterisation may rightly differ there
+  std::int64_t excluded_pixels = 0;  ///< covered by either image, and left out since rasterisation may rightly differ there
+  /// Those left out by the golden's reason: [1] another surface or none, [2] an alpha mask that may fall either way, [3] a texture without
+  /// mipmaps seen from too far.
+  std::array<std::int64_t, 4> excluded_by{};
+  /// Compared, but black and twice the golden would both pass, and it shows: its bound is above the brightest channel of the pixel and
+  /// above a tenth of what the picture's pixels have on average.
+  std::int64_t vague_pixels = 0;
   std::int64_t mirrored_pixels = 0;   ///< covered, and left out since the normal faces away (foreign viewers alone)
   std::int64_t nonfinite_pixels = 0;  ///< NaN or Inf in the candidate, anywhere in the image
   std::string message;                ///< why it is not a pass
@@ -42,6 +49,8 @@ struct VerdictRules {
   double environment_tolerance = 0;
   /// A golden with more than this share of its covered pixels excluded judges nothing.
   double most_excluded = 0.02;
+  /// A golden with more than this share of its compared pixels vague judges nothing either.
+  double most_vague = 0.2;
 };
 
 /// A share as people read it: "2.51 %".
@@ -51,8 +60,8 @@ std::string percent(double share);
 ///
 /// Compared are the pixels that either image covers (alpha > 0; a candidate without A covers what the golden covers) and the golden does
 /// not exclude. Passes if and only if every channel of every compared pixel lies within its bound, no pixel of the candidate is NaN or Inf,
-/// the sizes agree, at least one pixel was compared and at most `most_excluded` of the covered ones were excluded. A candidate or golden
-/// that cannot be judged is Invalid.
+/// the sizes agree, at least one pixel was compared, at most `most_excluded` of the covered ones were excluded and at most `most_vague` of
+/// the compared ones are vague. A candidate or golden that cannot be judged is Invalid.
 /// @param candidate  R G B and perhaps A
 /// @param golden     R G B A bound.R bound.G bound.B excluded, and perhaps mirrored
 Verdict judge(const image::Image& candidate, const image::Image& golden, const VerdictRules& rules);

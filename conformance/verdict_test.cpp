@@ -152,6 +152,49 @@ TEST_F(VerdictTest, ExcludedPixelsAreLeftOutUpToTwoPercent) {
   EXPECT_EQ(verdict().status, Status::Invalid) << "three of a hundred are too many to judge by the rest";
 }
 
+TEST_F(VerdictTest, TooManyExcludedAreToldByTheirReasons) {
+  for (int y = 0; y < 5; ++y) {
+    golden_.at(1, y, 7) = 2.0F;
+    golden_.at(2, y, 7) = 3.0F;
+  }
+  golden_.at(0, 0, 7) = 1.0F;
+  const Verdict v = verdict();
+  EXPECT_EQ(v.excluded_by, (std::array<std::int64_t, 4>{0, 1, 5, 5}));
+  EXPECT_NE(
+      v.message.find("11 of 100 covered pixels are excluded, more than may be: 1 at edges, 5 where an alpha mask may fall either way, "
+                     "5 where a texture without mipmaps"),
+      std::string::npos)
+      << v.message;
+}
+
+TEST_F(VerdictTest, ABoundThatLetsAnythingPassJudgesNothing) {
+  const auto widen = [&](int rows) {
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < width / 2; ++x) {
+        golden_.at(x, y, 6) = 1.1F * golden_.at(x, y, 2);  // blue is the brightest
+      }
+    }
+  };
+  widen(2);
+  EXPECT_EQ(verdict().vague_pixels, 20);
+  EXPECT_EQ(verdict().status, Status::Pass);
+  widen(3);
+  EXPECT_EQ(verdict().vague_pixels, 30);
+  EXPECT_EQ(verdict().status, Status::Invalid);
+  EXPECT_NE(verdict().message.find("30 of 100 compared pixels"), std::string::npos);
+}
+
+TEST_F(VerdictTest, ADarkPixelIsNotVague) {
+  for (int y = 0; y < height; ++y) {
+    for (int c = 0; c < 3; ++c) {
+      golden_.at(0, y, c) = golden_.at(1, y, c) = golden_.at(2, y, c) = candidate_.at(0, y, c) = candidate_.at(1, y, c) =
+          candidate_.at(2, y, c) = 0.0F;
+    }
+  }
+  EXPECT_EQ(verdict().vague_pixels, 0);
+  EXPECT_EQ(verdict().status, Status::Pass);
+}
+
 TEST_F(VerdictTest, ExcludedPixelsThatNobodyCoversDoNotCount) {
   for (int y = 0; y < height; ++y) {
     golden_.at(19, y, 7) = 1.0F;

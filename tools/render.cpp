@@ -53,6 +53,7 @@ nlohmann::ordered_json describe(const conformance::Verdict& verdict) {
           {"worst_pixel", {verdict.worst_x, verdict.worst_y}},
           {"compared_pixels", verdict.compared_pixels},
           {"excluded_pixels", verdict.excluded_pixels},
+          {"vague_pixels", verdict.vague_pixels},
           {"nonfinite_pixels", verdict.nonfinite_pixels},
           {"message", verdict.message}};
 }

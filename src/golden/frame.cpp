@@ -1,6 +1,7 @@
 #include "golden/frame.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sheen::golden {
 namespace {
@@ -19,7 +20,8 @@ Frame::Frame(const scene::Scene& scene_in, const Settings& settings_in)
       settings(settings_in),
       rays(make_rays(scene_in, settings_in.view)),
       geometry(scene_in),
-      reader(scene_in, geometry, rays, settings_in.environment != nullptr, settings_in.sheen.model),
+      reader(scene_in, geometry, rays, settings_in.environment != nullptr, settings_in.sheen.model,
+             std::ldexp(1.0, -settings_in.subpixel_bits)),
       tracer(scene_in, geometry, reader, rays),
       lights(prepare_lights(scene_in.lights)),
       model(albedo::resolved(settings_in.sheen)) {

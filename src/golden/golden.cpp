@@ -32,7 +32,7 @@ void store(const Pixel& pixel, bool bounds, int x, int y, image::Image& out) {
   for (int c = 0; c < 3; ++c) {
     put(4 + c, pixel.bound[c]);
   }
-  put(7, pixel.excluded ? 1.0 : 0.0);
+  put(7, static_cast<double>(pixel.excluded));
   put(8, pixel.mirrored ? 1.0 : 0.0);
   put(9, pixel.coverage_bound);
   for (int c = 0; c < 3 && out.channels.size() > 10; ++c) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "scene/scene.h"
@@ -23,6 +24,9 @@ class RayGenerator {
 
   /// Unit vector from a point the ray meets toward the camera.
   glm::dvec3 toward_camera(const Ray& ray) const;
+
+  /// Depth of a point along the viewing axis.
+  double depth(const glm::dvec3& point) const { return glm::dot(point - origin_, forward_); }
 
   const scene::Camera& camera() const { return camera_; }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "brdf/draft_sheen.h"
@@ -45,6 +46,8 @@ struct SurfaceReader::Footprint {
   double level = 0.0;
   std::array<glm::dvec3, 9> weights{};  // for that one: the 3 x 3 block, row by row
   bool beyond = false;
+  glm::dvec2 nudge{0.0};
+  const Ray* ray = nullptr;
 };
 
 std::vector<double> levels_within(const LodInterval& range) {
@@ -57,8 +60,8 @@ std::vector<double> levels_within(const LodInterval& range) {
 }
 
 SurfaceReader::SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment,
-                             brdf::Model model)
-    : geometry_(geometry), rays_(rays), model_(model), materials_(scene.materials.size()) {
+                             brdf::Model model, double step)
+    : geometry_(geometry), rays_(rays), model_(model), step_(step), materials_(scene.materials.size()) {
   TextureStore store(scene);
   std::vector<bool> used(scene.materials.size(), false);
   for (const scene::Instance& instance : scene.instances) {
@@ -117,6 +120,8 @@ void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store
 
 SurfaceReader::Footprint SurfaceReader::footprint(const Hit& hit, const Ray& ray, LodChoice lod) const {
   Footprint f;
+  f.nudge = lod.nudge;
+  f.ray = &ray;
   if (!needs_lod(geometry_.placed(hit.triangle).material_index)) {
     return f;
   }
@@ -148,6 +153,57 @@ glm::dvec2 SurfaceReader::texcoord(const Slot& slot, const Hit& hit, const glm::
   const glm::dvec2 uv =
       texcoords.empty() ? glm::dvec2(0.0) : interpolate<glm::dvec2>(texcoords, geometry_.local_vertices(hit.triangle), weights);
   return {slot.transform * glm::dvec3(uv, 1.0)};
+}
+
+// Of 32-bit floats, in coordinates: a few roundings of the largest at the triangle's vertices, then of the transform. In perspective what
+// is interpolated is their share of 1 / depth, of which the nearest point of the triangle has most.
+glm::dvec2 SurfaceReader::coordinate_rounding(const Slot& slot, const Hit& hit) const {
+  const auto& texcoords = geometry_.placed(hit.triangle).primitive->texcoords[static_cast<std::size_t>(slot.texcoord)];
+  glm::dvec2 largest(0.0);
+  for (const std::uint32_t vertex : geometry_.local_vertices(hit.triangle)) {
+    largest = texcoords.empty() ? largest : glm::max(largest, glm::abs(glm::dvec2(texcoords[vertex])));
+  }
+  if (rays_.camera().perspective) {
+    double nearest = hit.t;
+    for (const std::uint32_t vertex : geometry_.vertices(hit.triangle)) {
+      nearest = std::min(nearest, rays_.depth(geometry_.positions()[vertex]));
+    }
+    largest *= hit.t / std::max(nearest, rays_.camera().znear);
+  }
+  const glm::dmat3& m = slot.transform;
+  const glm::dvec3 out = glm::abs(m[0]) * largest.x + glm::abs(m[1]) * largest.y + glm::abs(m[2]);
+  return 0x1p-22 * glm::dvec2(out);
+}
+
+// In coordinates; infinite where the step leads beyond the plane.
+glm::dvec2 SurfaceReader::moved_by_step(const Slot& slot, const Hit& hit, const Ray& ray) const {
+  const glm::dvec2 here = texcoord(slot, hit, hit.weights);
+  glm::dvec2 moved(0.0);
+  for (const glm::dvec2& by : {glm::dvec2(step_, 0.0), glm::dvec2(0.0, step_)}) {
+    const auto met = geometry_.meet(hit.triangle, rays_.through(ray.x + by.x, ray.y + by.y));
+    moved += met ? glm::abs(texcoord(slot, hit, met->weights) - here) : glm::dvec2(std::numeric_limits<double>::infinity());
+  }
+  return moved;
+}
+
+TextureReach SurfaceReader::texture_reach(const Hit& hit, const Ray& ray) const {
+  const Material& m = materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)];
+  TextureReach reach;
+  for (std::size_t i = 0; i < slot_count; ++i) {
+    const Slot& slot = slot_of(m, i);
+    if (!slot.texture) {
+      continue;
+    }
+    const glm::dvec2 size = slot.texture->size();
+    const glm::dvec2 rounding = coordinate_rounding(slot, hit) * size;
+    const glm::dvec2 moved = moved_by_step(slot, hit, ray) * size;
+    if (slot.texture->sampler.mip == scene::MipFilter::None) {
+      reach.texels = std::max({reach.texels, moved.x + rounding.x, moved.y + rounding.y});
+    }
+    // The step is twice what a grid of that size does, so a little of the rest is in it.
+    reach.beyond_the_step = reach.beyond_the_step || rounding.x > 0.125 * moved.x || rounding.y > 0.125 * moved.y;
+  }
+  return reach;
 }
 
 // The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes.
@@ -247,7 +303,11 @@ glm::dvec4 SurfaceReader::read(const Slot& slot, const Hit& hit, const Footprint
       lambda = ideal_lod(texels(0), texels(1), texels(2));
     }
   }
-  return sample(*slot.texture, texcoord(slot, hit, hit.weights), lambda);
+  glm::dvec2 uv = texcoord(slot, hit, hit.weights);
+  if (footprint.nudge != glm::dvec2(0.0)) {
+    uv += footprint.nudge * (coordinate_rounding(slot, hit) + moved_by_step(slot, hit, *footprint.ray));
+  }
+  return sample(*slot.texture, uv, lambda);
 }
 
 glm::dvec3 SurfaceReader::interpolated_normal(const Hit& hit) const {

@@ -13,10 +13,17 @@
 namespace sheen::golden {
 
 /// Which level of detail mipmapped textures are read at: the specification's ideal one, but for one texture of the material the one given,
-/// as far as OpenGL ES allows it to go: a driver chooses for each texture apart.
+/// as far as OpenGL ES allows it to go: a driver chooses for each texture apart. And where all are read.
 struct LodChoice {
   std::optional<double> level;  ///< none: the ideal level for all
   std::size_t slot = 0;         ///< which texture, below SurfaceReader::slot_count
+  glm::dvec2 nudge{0.0};        ///< of every texture's coordinates, as a share, -1 to 1, of the farthest that a driver's may lie off
+};
+
+/// How far off the texture coordinates of a driver may lie at a hit.
+struct TextureReach {
+  double texels = 0;             ///< the farthest, of the textures without mipmaps
+  bool beyond_the_step = false;  ///< whether more than what moving the sample by the step makes of it
 };
 
 /// Levels of detail that OpenGL ES allows.
@@ -33,7 +40,9 @@ class SurfaceReader {
  public:
   /// Decodes every texture that a material in use reads under that model: occlusion only for environment light. The references must outlive
   /// this. Throws scene::Error.
-  SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment, brdf::Model model);
+  /// @param step  by which a driver's grid may move a sample, in pixels
+  SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment, brdf::Model model,
+                double step);
 
   Layers layers(int material) const { return materials_[static_cast<std::size_t>(material)].layers; }
   /// Whether a material's textures depend on the level of detail; else LodChoice changes nothing.
@@ -48,6 +57,8 @@ class SurfaceReader {
   /// levels_within() for one texture at a hit; of a normal map as many more as leave no more than a hundredth of a radian between the
   /// normals of two neighbours: a lobe may rise and fall again while a normal swings past it. Empty where the level changes nothing.
   std::vector<double> levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const;
+
+  TextureReach texture_reach(const Hit& hit, const Ray& ray) const;
 
   /// What shading needs at a hit of a ray; weights outside [0, 1] extrapolate.
   Surface<double> surface(const Hit& hit, const Ray& ray, LodChoice lod = {}) const;
@@ -72,6 +83,8 @@ class SurfaceReader {
   static const Slot& slot_of(const Material& material, std::size_t slot);
   void read_material(const scene::Scene& scene, TextureStore& store, int index, bool environment);
   glm::dvec2 texcoord(const Slot& slot, const Hit& hit, const glm::dvec3& weights) const;
+  glm::dvec2 coordinate_rounding(const Slot& slot, const Hit& hit) const;
+  glm::dvec2 moved_by_step(const Slot& slot, const Hit& hit, const Ray& ray) const;
   LodInterval lod_interval(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec4 read(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec3 mapped_normal(const Slot& slot, double scale, const glm::dvec3& normal, const Hit& hit, const Footprint& footprint) const;
@@ -81,6 +94,7 @@ class SurfaceReader {
   const Geometry& geometry_;
   const RayGenerator& rays_;
   brdf::Model model_;
+  double step_;
   std::vector<Material> materials_;
 };
 

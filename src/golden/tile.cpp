@@ -1,6 +1,7 @@
 #include "golden/tile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -17,6 +18,10 @@ namespace {
 glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
   return {c.r, c.g, c.b};
 }
+
+/// Texels by which a driver's choice may be off for the corners of the step to show all that it may find.
+constexpr double most_texels = 0.5;
+const std::array<glm::dvec2, 4> nudges{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
 
 }  // namespace
 
@@ -133,7 +138,9 @@ void Tile::add_shifted(Plan& plan) {
     if (centre.seen.empty() && look.seen.empty() && !shows_background()) {
       continue;
     }
-    plan.excluded = plan.excluded || look.seen.tie || interrupted(centre.ray, centre.seen, look.ray, look.seen);
+    if (look.seen.tie || interrupted(centre.ray, centre.seen, look.ray, look.seen)) {
+      plan.excluded = Exclusion::Surface;
+    }
     add_sample_with_tie(look.seen, look.ray);
   }
 }
@@ -152,6 +159,26 @@ void Tile::add_carried_on() {
       }
     }
   }
+}
+
+// What is seen where the rounding of texture coordinates leads, if that is farther than the corners of the step. False where coordinates
+// may lie so far off that corners show but some of the texels between them: a texture without mipmaps seen from far.
+bool Tile::add_nudged() {
+  const Look& centre = looks_[0];
+  const auto add = [&](const Hit& hit) {
+    const TextureReach reach = frame_.reader.texture_reach(hit, centre.ray);
+    for (const glm::dvec2& nudge : nudges) {
+      if (reach.beyond_the_step) {
+        add_sample(centre.seen, centre.ray, {std::nullopt, 0, nudge}, &hit);
+      }
+    }
+    return reach.texels <= most_texels;
+  };
+  bool sampled = !centre.seen.nearest || add(*centre.seen.nearest);
+  for (const Hit& hit : centre.seen.blended) {
+    sampled = add(hit) && sampled;
+  }
+  return sampled;
 }
 
 // Whether an earlier look meets the same triangles.
@@ -175,6 +202,15 @@ bool Tile::mask_uncertain() const {
       Seen alone;
       alone.nearest = hit;
       const bool kept = frame_.reader.opacity(hit, met.ray) >= cutoff;
+      const TextureReach reach = frame_.reader.texture_reach(hit, met.ray);
+      if (reach.texels > most_texels) {
+        return true;
+      }
+      for (const glm::dvec2& nudge : nudges) {
+        if (reach.beyond_the_step && (frame_.reader.opacity(hit, met.ray, {std::nullopt, 0, nudge}) >= cutoff) != kept) {
+          return true;
+        }
+      }
       for (const Look& look : looks_) {
         const Hit there = *extended(alone, look.ray).nearest;
         if ((frame_.reader.opacity(there, look.ray) >= cutoff) != kept) {
@@ -198,7 +234,7 @@ Tile::Plan Tile::plan(int x, int y) {
   frame_.tracer.trace(centre.ray, bounds, centre.seen);
   const auto groups = static_cast<std::uint32_t>(lod_group_ends_.size());
   const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(frame_.settings.view.width) + static_cast<std::uint64_t>(x);
-  Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, centre.seen.tie.has_value()};
+  Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, centre.seen.tie ? Exclusion::Surface : Exclusion::None};
   if (!bounds) {
     add_sample(centre.seen, centre.ray);
     plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
@@ -207,8 +243,11 @@ Tile::Plan Tile::plan(int x, int y) {
   add_sample_with_tie(centre.seen, centre.ray);
   add_shifted(plan);
   add_carried_on();
+  const bool sampled = add_nudged();
   plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
-  plan.excluded = plan.excluded || mask_uncertain();
+  if (plan.excluded == Exclusion::None) {
+    plan.excluded = mask_uncertain() ? Exclusion::Mask : sampled ? Exclusion::None : Exclusion::Texels;
+  }
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     if (!seen_before(k)) {
       add_levels(extended(looks_[k].seen, centre.ray), centre.ray);

@@ -11,6 +11,14 @@
 
 namespace sheen::golden {
 
+/// Why a pixel is left out of comparisons: what the rules leave open there is no matter of shading.
+enum class Exclusion {
+  None = 0,
+  Surface = 1,  ///< another surface, or none, within the step
+  Mask = 2,     ///< an alpha mask that a moved sample or another level of detail decides otherwise
+  Texels = 3,   ///< a texture without mipmaps whose texel a moved sample may choose freely
+};
+
 /// One pixel of a golden.
 struct Pixel {
   glm::dvec3 radiance{0.0};
@@ -18,7 +26,7 @@ struct Pixel {
   glm::dvec3 bound{0.0};
   double coverage_bound = 0.0;
   glm::dvec3 standard_error{0.0};  ///< of the light of an image
-  bool excluded = false;
+  Exclusion excluded = Exclusion::None;
   bool mirrored = false;
 };
 
@@ -48,7 +56,7 @@ class Tile {
   struct Plan {  // samples: the centre, the shifted ones, then a group of other levels of detail for each texture
     std::uint64_t pixel;
     std::uint32_t centre, shifted_end, first_group, last_group;
-    bool excluded;
+    Exclusion excluded;
   };
   struct Composed {
     glm::dvec3 radiance{0.0}, magnitude{0.0}, lookup{0.0}, standard_error{0.0};
@@ -59,6 +67,7 @@ class Tile {
   Plan plan(int x, int y);
   void add_shifted(Plan& plan);
   void add_carried_on();
+  bool add_nudged();
   bool seen_before(std::size_t look) const;
   bool mask_uncertain() const;
   void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {}, const Hit* varied = nullptr);
