@@ -123,7 +123,10 @@ class TextureBinder {
 };
 
 void add_mesh(GlbBuilder& builder, const json& description, const Needs& needs) {
-  const Shape shape = make_shape(description["shape"].get<std::string>());
+  Shape shape = make_shape(description["shape"].get<std::string>());
+  if (description.value("mirrored_texcoords", false)) {
+    mirror_texcoords(shape);
+  }
   json attributes;
   attributes["POSITION"] = builder.add_accessor(shape.positions, "VEC3", gl_float, array_buffer);
   std::array<float, 3> low = shape.positions.front();

@@ -166,8 +166,10 @@ void check_size(const json& size, const Place& place) {
 
 void check_description(const json& description, const std::string& file, const std::string& element) {
   const Place place{file, element};
-  check_keys(description, {"shape", "node", "vertex_colors", "material", "lights", "environment", "law", "camera", "model", "size"}, file,
-             element);
+  check_keys(
+      description,
+      {"shape", "node", "vertex_colors", "mirrored_texcoords", "material", "lights", "environment", "law", "camera", "model", "size"}, file,
+      element);
   for (const char* key : {"shape", "material", "lights", "camera", "size"}) {
     require(description, key, place);
   }
@@ -177,8 +179,10 @@ void check_description(const json& description, const std::string& file, const s
   if (description.contains("node")) {
     check_node(description["node"], place.inside("node"));
   }
-  if (description.contains("vertex_colors") && !description["vertex_colors"].is_boolean()) {
-    place.inside("vertex_colors").fail("must be true or false");
+  for (const char* flag : {"vertex_colors", "mirrored_texcoords"}) {
+    if (description.contains(flag) && !description[flag].is_boolean()) {
+      place.inside(flag).fail("must be true or false");
+    }
   }
   check_material(description["material"], place.inside("material"));
   if (description.contains("environment") &&

@@ -51,6 +51,13 @@ Texel ripples_texel(double u, double v) {
   return normal_texel(0.4 * slope, slope, 0.3);
 }
 
+/// Height sin(5 tau v): the same all along u. No code of 8 bits means a slope of 0; of the two nearest, `code` / 255.
+Texel steps_texel(double v, int code) {
+  Texel texel = normal_texel(0.0, std::cos(5 * tau * v), 0.3);
+  texel[0] = code / 255.0;
+  return texel;
+}
+
 Texel flat_texel(double, double) {
   return {0.2, 0.4, 0.6, 0.8};
 }
@@ -62,9 +69,15 @@ struct Recipe {
 
 const std::map<std::string, Recipe>& recipes() {
   static const std::map<std::string, Recipe> all = {
-      {"channels", {64, 64, 4, 8, channels_texel}}, {"weave", {64, 64, 4, 8, weave_texel}},  {"weave16", {64, 64, 4, 16, weave_texel}},
-      {"flat", {4, 4, 4, 8, flat_texel}},           {"odd", {37, 23, 4, 8, channels_texel}}, {"bumps", {64, 64, 3, 8, bumps_texel}},
+      {"channels", {64, 64, 4, 8, channels_texel}},
+      {"weave", {64, 64, 4, 8, weave_texel}},
+      {"weave16", {64, 64, 4, 16, weave_texel}},
+      {"flat", {4, 4, 4, 8, flat_texel}},
+      {"odd", {37, 23, 4, 8, channels_texel}},
+      {"bumps", {64, 64, 3, 8, bumps_texel}},
       {"ripples", {64, 64, 3, 8, ripples_texel}},
+      {"steps", {64, 64, 3, 8, [](double, double v) { return steps_texel(v, 128); }}},
+      {"steps_back", {64, 64, 3, 8, [](double, double v) { return steps_texel(v, 127); }}},
   };
   return all;
 }

@@ -238,6 +238,13 @@ std::vector<WrongViewer> wrong_viewers() {
          }
        }),
        {"clearcoat.normal_map_does_not_reach_the_base", "clearcoat.normal_map_does_not_reach_the_sheen"}},
+      {"tangents' handedness lost",
+       [](scene::Scene& s, golden::Settings&) {
+         for (auto& tangent : s.primitives.at(0).tangents) {
+           tangent.w = 1;
+         }
+       },
+       {"base.normal_map_of_mirrored_coordinates_keeps_its_bitangent", "clearcoat.normal_map_of_mirrored_coordinates_keeps_its_bitangent"}},
       {"no second set",
        of_material([](scene::Material& m) {
          for (auto& [name, texture] : textures_of(m)) {

@@ -144,4 +144,15 @@ Shape make_shape(const std::string& name) {
   throw std::invalid_argument("unknown shape '" + name + "'; known: " + shape_names());
 }
 
+void mirror_texcoords(Shape& shape) {
+  for (std::array<float, 2>& texcoord : shape.texcoord_0) {
+    texcoord[0] = 1.0F - texcoord[0];
+  }
+  for (std::array<float, 4>& tangent : shape.tangents) {
+    for (float& component : tangent) {
+      component = -component;
+    }
+  }
+}
+
 }  // namespace sheen::conformance

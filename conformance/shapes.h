@@ -27,4 +27,7 @@ std::string shape_names();
 /// Throws std::invalid_argument for an unknown name.
 Shape make_shape(const std::string& name);
 
+/// Lets u of TEXCOORD_0 run the other way: tangents turn about, and with them their w, so that bitangents stay.
+void mirror_texcoords(Shape& shape);
+
 }  // namespace sheen::conformance

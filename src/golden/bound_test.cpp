@@ -219,6 +219,66 @@ TEST(Bound, HoldsTheCoverageOfABlendedTexture) {
   EXPECT_EQ(golden.at(0, 0, bound), 0.0f) << "no surface covers nothing, exactly";
 }
 
+// A square under 64 x 64 texels of noise, as seen by 32-bit floats and beyond them.
+TEST(Bound, ATextureWithoutMipmapsSeenFromTooFarIsLeftOutAndOneWithThemIsNot) {
+  for (const auto mip : {scene::MipFilter::None, scene::MipFilter::Linear}) {
+    for (const double tiles : {1.0, 400.0}) {  // 8 and 3200 texels a pixel, of which the step is 1/256
+      scene::Scene s = test::scene_with(test::square(0.9), test::lambertian(glm::dvec4(1.0)), test::orthographic_at(5.0, 1.0),
+                                        {test::directional({0.0, 0.0, 1.0})});
+      auto& texture = s.materials[0].base_color_texture;
+      texture = test::add_texture(s, test::picture(64, 64, [](int x, int y) { return glm::ivec4((x * 37 + y * 91) % 256); }));
+      texture.transform = glm::dmat3(tiles, 0.0, 0.0, 0.0, tiles, 0.0, 0.0, 0.0, 1.0);
+      s.textures[0].sampler.mip = mip;
+      const image::Image golden = render(s, test::settings_for(8, 8, true));
+      const bool too_far = mip == scene::MipFilter::None && tiles > 1.0;
+      EXPECT_EQ(golden.at(4, 4, golden.channel("excluded")), too_far ? 3.0f : 0.0f) << tiles;
+    }
+  }
+}
+
+TEST(Bound, HoldsTheRoundingOfLargeTextureCoordinates) {
+  // Columns of black and white 16 pixels wide, so that the step moves next to nothing; the offset of 20,000 costs 2^-9 of a column.
+  scene::Scene s = test::scene_with(test::square(1.0), test::lambertian(glm::dvec4(1.0)), test::orthographic_at(5.0, 1.0),
+                                    {test::directional({0.0, 0.0, 1.0})});
+  auto& texture = s.materials[0].base_color_texture;
+  texture =
+      test::add_texture(s, test::picture(4, 4, [](int x, int) { return glm::ivec4(glm::ivec3(255 * (x % 2)), 255); }),
+                        {scene::Wrap::Repeat, scene::Wrap::Repeat, scene::Filter::Nearest, scene::Filter::Nearest, scene::MipFilter::None});
+  for (const double offset : {0.0, 20000.0}) {
+    // The border between two columns lies 0.002 of a column beside a pixel's centre.
+    texture.transform = glm::dmat3(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, offset + (0.5 + 0.032) / 64.0, 0.0, 1.0);
+    const image::Image golden = render(s, test::settings_for(64, 64, true));
+    const float bound = golden.at(31, 20, golden.channel("bound.R"));
+    EXPECT_EQ(golden.at(31, 20, golden.channel("excluded")), 0.0f);
+    if (offset > 0.0) {
+      EXPECT_GT(bound, 0.3) << "either column may be read";
+    } else {
+      EXPECT_LT(bound, 1e-3);
+    }
+  }
+}
+
+TEST(Bound, WidensAtTheRimOfANarrowCone) {
+  scene::Light spot;
+  spot.type = scene::LightType::Spot;
+  spot.position = {0.0, 0.0, 10.0};
+  spot.direction = {0.0, 0.0, -1.0};
+  spot.intensity = 100.0;
+  spot.inner_cone = 0.0499;
+  spot.outer_cone = 0.05;
+  const scene::Scene s = test::scene_with(test::square(1.0), test::lambertian(glm::dvec4(1.0)), test::orthographic_at(12.0, 0.6), {spot});
+  const image::Image golden = render(s, test::settings_for(301, 301, true));
+  double widest = 0.0;
+  for (int x = 150; x < 301; ++x) {
+    const double value = golden.at(x, 150, 0);
+    if (value > 1e-3) {
+      widest = std::max(widest, (golden.at(x, 150, golden.channel("bound.R")) - 2e-5) / value);
+    }
+  }
+  EXPECT_GT(widest, 5e-3);
+  EXPECT_LT(golden.at(150, 150, golden.channel("bound.R")) / golden.at(150, 150, 0), 2.2e-3) << "the middle knows little of it";
+}
+
 TEST(Bound, SurfacesAtOneDepthAreExcludedAndTheFirstInTheFileIsShown) {
   scene::Scene s = test::scene_with(test::square(2.0), test::lambertian({0.2, 0.2, 0.2, 1.0}), test::camera_at(5.0),
                                     {test::directional({0.0, 0.0, 1.0})});

@@ -29,6 +29,7 @@ template <class Real>
 struct Arriving {
   Vec3<Real> direction;        ///< unit, toward the light
   brdf::Rgb<Real> irradiance;  ///< lux at normal incidence
+  Real rounding;               ///< share of the irradiance that 32-bit floats may miss near the rim of a cone
 };
 
 /// Distant lights, each with its direction and irradiance: lanes of a batch take as many at once. Lengths are a multiple of the lanes.
@@ -40,7 +41,8 @@ struct DistantLights {
   Arriving<Real> arriving(std::size_t first) const {
     using Lanes = number::Lanes<Real>;
     return {{Lanes::load(x + first), Lanes::load(y + first), Lanes::load(z + first)},
-            {Lanes::load(r + first), Lanes::load(g + first), Lanes::load(b + first)}};
+            {Lanes::load(r + first), Lanes::load(g + first), Lanes::load(b + first)},
+            Real(0)};
   }
 };
 
@@ -54,7 +56,7 @@ Arriving<Real> arriving(const PreparedLight& light, const Vec3<Real>& point) {
   using brdf::sqrt;
   const brdf::Rgb<Real> intensity{Real(light.intensity.x), Real(light.intensity.y), Real(light.intensity.z)};
   if (light.type == scene::LightType::Directional) {
-    return {broadcast<Real>(-light.axis), intensity};
+    return {broadcast<Real>(-light.axis), intensity, Real(0)};
   }
   const Vec3<Real> to_light = broadcast<Real>(light.position) - point;
   const Real distance2 = dot(to_light, to_light);
@@ -64,12 +66,17 @@ Arriving<Real> arriving(const PreparedLight& light, const Vec3<Real>& point) {
   const Real ratio2 = distance2 * Real(light.inverse_range * light.inverse_range);
   const Real window = max(min(Real(1) - ratio2 * ratio2, Real(1)), Real(0));
   Real attenuation = select(apart, window * inverse2, Real(0));
+  Real rounding(0);
   if (light.type == scene::LightType::Spot) {
     const Real cd = Real(0) - dot(broadcast<Real>(light.axis), direction);
     const Real cone = max(min(cd * Real(light.cone_scale) + Real(light.cone_offset), Real(1)), Real(0));
     attenuation = attenuation * (cone * cone);
+    // Eight roundings of a cosine of 1, times the scale: ((cone + e)^2 - cone^2) / cone^2.
+    const Real e(light.cone_scale * 0x1p-21);
+    const Real inverse = Real(1) / select(cone > Real(0), cone, Real(1));
+    rounding = select(cone > Real(0), e * inverse * (Real(2) + e * inverse), Real(0));
   }
-  return {direction, intensity * attenuation};
+  return {direction, intensity * attenuation, rounding};
 }
 
 }  // namespace sheen::golden

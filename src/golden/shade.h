@@ -30,12 +30,12 @@ struct Lighting {
   const albedo::GgxInterpolant* ggx = nullptr;  ///< of the physical model alone, which it makes the base follow
 };
 
-/// Radiance of a surface, and what the approximations the texts grant a shader may change in it.
+/// Radiance of a surface, and what the approximations granted to a shader, and its roundings where they are magnified, may change in it.
 template <class Real>
 struct Shaded {
   brdf::Rgb<Real> radiance;
   brdf::Rgb<Real> magnitude;  ///< sum of the terms' absolute values: equals radiance unless a scale went negative (`literal`)
-  brdf::Rgb<Real> lookup;     ///< error of reading E once, at min(N.V, N.L), instead of taking the larger of two
+  brdf::Rgb<Real> lookup;     ///< error of reading E once, at min(N.V, N.L), instead of taking the larger of two, and at the rims of cones
   Real mirrored;              ///< 1 where N.V <= 0 mirrored V, of either lobe's normal, else 0
 };
 
@@ -267,7 +267,9 @@ Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& 
     }
     listener.light(i, part);
     out.radiance = out.radiance + part.sheen + part.base + part.coat;
-    out.magnitude = out.magnitude + absolute(part.sheen) + absolute(part.base) + absolute(part.coat);
+    const Color magnitude = absolute(part.sheen) + absolute(part.base) + absolute(part.coat);
+    out.magnitude = out.magnitude + magnitude;
+    out.lookup = out.lookup + magnitude * light.rounding;
   }
   return out;
 }
