@@ -333,9 +333,6 @@ RunResult run(const RunOptions& options) {
   if (error) {
     throw image::Error(options.report.string() + ": the report's folder cannot be made: " + error.message());
   }
-  if (!options.viewer.empty()) {
-    image::preload();  // others may answer in PNG
-  }
 
   RunRecord record;
   record.suite = suite.name;

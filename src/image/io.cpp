@@ -218,8 +218,4 @@ void write(const std::filesystem::path& file, const Image& image, ExrCompression
   staged.commit();
 }
 
-void preload() {
-  start_loading();
-}
-
 }  // namespace sheen::image

@@ -36,8 +36,4 @@ std::vector<std::uint8_t> encode_png(const Image& image);
 /// (alpha straight). Throws Error when they do not fit.
 std::vector<std::uint8_t> encode_png_codes(int width, int height, int channels, int bits, const std::vector<std::uint16_t>& codes);
 
-/// Starts loading OpenImageIO in the background, which reads .png and .jpg: it costs 0.4 s and can overlap with other work. Later
-/// calls need not know. Nothing else needs it, nor does anything that is written.
-void preload();
-
 }  // namespace sheen::image

@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <filesystem>
-#include <future>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -48,11 +47,6 @@ Loaded load() {
   }
 }
 
-const std::shared_future<Loaded>& loading() {
-  static const std::shared_future<Loaded> future = std::async(std::launch::async, load).share();
-  return future;
-}
-
 }  // namespace
 
 std::vector<std::filesystem::path> module_places(const std::filesystem::path& folder) {
@@ -65,12 +59,8 @@ std::vector<std::filesystem::path> module_places(const std::filesystem::path& fo
   return places;
 }
 
-void start_loading() {
-  loading();
-}
-
 const Module& loaded_module() {
-  const Loaded& loaded = loading().get();
+  static const Loaded loaded = load();
   if (loaded.module == nullptr) {
     throw Error("the image library cannot be loaded: " + loaded.error);
   }

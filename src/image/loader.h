@@ -7,9 +7,6 @@
 
 namespace sheen::image {
 
-/// Starts loading the image module on a thread of its own, once a process; the thread is joined by whoever needs the module, or at exit.
-void start_loading();
-
 /// The image module, loaded when first asked for and never unloaded (OpenImageIO's libraries do not survive that). Thread-safe.
 /// Throws Error with every place that was tried.
 const Module& loaded_module();

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "image/io.h"
+#include "image/rgb_channels.h"
 
 namespace sheen::image {
 namespace {
@@ -111,10 +112,7 @@ Image read_pfm(const std::filesystem::path& file) {
 }
 
 std::vector<std::uint8_t> encode_pfm(const Image& image) {
-  const std::array<int, 3> rgb = {image.channel("R"), image.channel("G"), image.channel("B")};
-  if (rgb[0] < 0 || rgb[1] < 0 || rgb[2] < 0) {
-    throw Error("a PFM needs the channels R, G and B");
-  }
+  const std::array<int, 3> rgb = rgb_channels(image, "a PFM");
   const std::string header = "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
   std::vector<std::uint8_t> bytes(header.begin(), header.end());
   bytes.reserve(bytes.size() + static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 12);
