@@ -167,8 +167,8 @@ bool Tile::add_nudged() {
   const Look& centre = looks_[0];
   const auto add = [&](const Hit& hit) {
     const TextureReach reach = frame_.reader.texture_reach(hit, centre.ray);
-    for (const glm::dvec2& nudge : nudges) {
-      if (reach.beyond_the_step) {
+    if (reach.beyond_the_step) {
+      for (const glm::dvec2& nudge : nudges) {
         add_sample(centre.seen, centre.ray, {std::nullopt, 0, nudge}, &hit);
       }
     }
