@@ -55,7 +55,8 @@ std::vector<glm::vec3> part(const scene::Environment& environment, double limit,
 EnvironmentLight::EnvironmentLight(const scene::Environment& environment)
     : environment_(environment),
       soft_(environment.width, environment.height, part(environment, threshold(environment), false), environment.rotation),
-      bright_(environment.width, environment.height, part(environment, threshold(environment), true), environment.rotation) {
+      bright_(environment.width, environment.height, part(environment, threshold(environment), true), environment.rotation),
+      slow_(soft_.texels()) {
   if (bright_.dark()) {
     return;
   }

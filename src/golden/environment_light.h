@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "golden/band_limited.h"
 #include "golden/image_light.h"
 #include "scene/environment.h"
 
@@ -17,6 +18,8 @@ class EnvironmentLight {
   glm::dvec3 radiance(const glm::dvec3& direction) const { return environment_.radiance(direction); }
   const ImageLight& soft() const { return soft_; }
   const ImageLight& bright() const { return bright_; }
+  /// What of the soft part varies slowly.
+  const BandLimited& slow() const { return slow_; }
   /// Whether what is bright lies apart (lamps), not in one place (the sun).
   bool bright_scattered() const { return bright_sine_ > 0.25; }
   /// Whether all that is bright lies below the horizon of a unit normal.
@@ -25,6 +28,7 @@ class EnvironmentLight {
  private:
   const scene::Environment& environment_;
   ImageLight soft_, bright_;
+  BandLimited slow_;
   Vec3<double> bright_axis_{0, 1, 0};  // of a cone that holds all that is bright
   double bright_sine_ = 1.0;           // of its half angle; 1: no such cone below a hemisphere
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "golden/image_sum.h"
+#include "golden/controlled_mean.h"
 #include "golden/uniform_light.h"
 
 namespace sheen::golden {
@@ -60,15 +60,15 @@ std::uint32_t sequence(std::uint64_t stream, std::uint32_t replica, std::size_t 
 }
 
 // What the points [begin, end) of each strategy, times its weight, add up to in one replica.
-Color replica_sum(const ImageSumTask& task, const DirectionPool& pool, std::uint64_t stream, std::uint32_t replica, std::uint32_t begin,
-                  std::uint32_t end) {
+ImageSums replica_sum(const ImageSumTask& task, const DirectionPool& pool, std::uint64_t stream, std::uint32_t replica, std::uint32_t begin,
+                      std::uint32_t end) {
   DirectionPool::LightBlock light[first_lobe];
   DirectionPool::LobeBlock lobe[strategy_count];
   std::uint32_t at[strategy_count];
   for (std::size_t k = 0; k < strategy_count; ++k) {
     at[k] = begin * task.sampling->weights[k];
   }
-  Color sum{0, 0, 0};
+  ImageSums sum;
   for (bool more = true; more;) {
     StrategyPoints points;
     more = false;
@@ -90,7 +90,9 @@ Color replica_sum(const ImageSumTask& task, const DirectionPool& pool, std::uint
       at[k] += count;
       more = more || at[k] < last;
     }
-    sum = sum + image_sum(task, points);
+    const ImageSums block = image_sum(task, points);
+    sum.radiance = sum.radiance + block.radiance;
+    sum.control = sum.control + block.control;
   }
   return sum;
 }
@@ -138,41 +140,48 @@ bool EnvironmentEstimate::refine(const Surface<double>& surface, CurveCache& cur
   if (end == 0 || end > most_points) {
     return false;
   }
-  const Task task(surface, layers_, *lighting_, sampling_, curves);
+  Task task(surface, layers_, *lighting_, sampling_, curves);
+  if (points_ == 0 && sampling_.weights[index_of(Strategy::Soft)] > 0) {
+    control_ = control_variate(task.dark, layers_, task.sum.lighting);
+    known_ = integral(control_, lighting_->light->slow());
+  }
+  task.sum.control = sampling_.weights[index_of(Strategy::Soft)] > 0 ? &control_ : nullptr;
   for (std::uint32_t r = 0; r < replicas; ++r) {
-    sums_[r] = sums_[r] + replica_sum(task.sum, *lighting_->pool, stream_, r, points_, end);
+    const ImageSums drawn = replica_sum(task.sum, *lighting_->pool, stream_, r, points_, end);
+    sums_[r].radiance = sums_[r].radiance + drawn.radiance;
+    sums_[r].control = sums_[r].control + drawn.control;
   }
   points_ = end;
   return true;
 }
 
 Estimate EnvironmentEstimate::value() const {
-  constexpr double student = 4.125 / 3.0;
+  constexpr double student = 4.195 / 3.0;
+  Estimate out{mirrored_, {0, 0, 0}};
   if (points_ == 0) {
-    return {mirrored_, {0, 0, 0}};
+    return out;
   }
-  Color mean{0, 0, 0};
-  for (const Color& sum : sums_) {
-    mean = mean + sum * (1.0 / (static_cast<double>(points_) * replicas));
+  for (double Color::*channel : {&Color::r, &Color::g, &Color::b}) {
+    std::array<ControlledMean::Pair, replicas> means;
+    for (std::uint32_t r = 0; r < replicas; ++r) {
+      means[r] = {sums_[r].radiance.*channel / points_, sums_[r].control.*channel / points_};
+    }
+    const ControlledMean mean(means, known_.*channel);
+    out.mean.*channel += mean.value * occlusion_;
+    out.standard_error.*channel = mean.standard_error * student * occlusion_;
   }
-  Color variance{0, 0, 0};  // of the mean
-  for (const Color& sum : sums_) {
-    const Color off = sum * (1.0 / points_) + mean * -1.0;
-    variance = variance + off * off * (1.0 / (replicas * (replicas - 1)));
-  }
-  const Color deviation{std::sqrt(variance.r), std::sqrt(variance.g), std::sqrt(variance.b)};
-  return {mean * occlusion_ + mirrored_, deviation * (student * occlusion_)};
+  return out;
 }
 
 Color coarse_environment(const Surface<double>& surface, Layers layers, const ImageLighting& lighting, std::uint64_t stream,
                          CurveCache& curves) {
-  constexpr std::uint32_t coarse_replicas = 2;
+  constexpr std::uint32_t coarse_replicas = 1;
   constexpr std::uint32_t coarse_points = 4;
   const LobeSampling sampling = sampling_of(surface, layers, *lighting.light);
   const Task task(surface, layers, lighting, sampling, curves);
   Color sum{0, 0, 0};
   for (std::uint32_t r = 0; r < coarse_replicas; ++r) {
-    sum = sum + replica_sum(task.sum, *lighting.pool, mix(stream), r, 0, coarse_points);
+    sum = sum + replica_sum(task.sum, *lighting.pool, mix(stream), r, 0, coarse_points).radiance;
   }
   return sum * (surface.occlusion / (coarse_replicas * coarse_points)) + mirrors(surface, layers, lighting);
 }

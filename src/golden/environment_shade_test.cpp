@@ -140,12 +140,16 @@ TEST(ImageSum, BatchesEqualOneAtATime) {
         points.lobe[k] = pool.lobe(k, 0, lobe_block);
       }
     }
-    const Color one = image_sum_scalar(task, points);
-    const Color four = image_sum_batch(task, points);
-    EXPECT_GT(one.g, 0.0);
-    EXPECT_NEAR(four.r, one.r, 1e-9 * one.r);
-    EXPECT_NEAR(four.g, one.g, 1e-9 * one.g);
-    EXPECT_NEAR(four.b, one.b, 1e-9 * one.b);
+    const ControlVariate control = control_variate(surface, task.layers, task.lighting);
+    task.control = &control;
+    const ImageSums one = image_sum_scalar(task, points);
+    const ImageSums four = image_sum_batch(task, points);
+    for (Color ImageSums::*sum : {&ImageSums::radiance, &ImageSums::control}) {
+      EXPECT_GT((one.*sum).g, 0.0);
+      EXPECT_NEAR((four.*sum).r, (one.*sum).r, 1e-9 * (one.*sum).r);
+      EXPECT_NEAR((four.*sum).g, (one.*sum).g, 1e-9 * (one.*sum).g);
+      EXPECT_NEAR((four.*sum).b, (one.*sum).b, 1e-9 * (one.*sum).b);
+    }
   }
 }
 

@@ -4,11 +4,11 @@
 
 namespace sheen::golden {
 
-brdf::Rgb<double> image_sum_scalar(const ImageSumTask& task, const StrategyPoints& points) {
+ImageSums image_sum_scalar(const ImageSumTask& task, const StrategyPoints& points) {
   return ImageSum<double>(task)(points);
 }
 
-brdf::Rgb<double> image_sum(const ImageSumTask& task, const StrategyPoints& points) {
+ImageSums image_sum(const ImageSumTask& task, const StrategyPoints& points) {
 #if defined(__x86_64__) || defined(__i386__)
   if (number::has_batch()) {
     return image_sum_batch(task, points);

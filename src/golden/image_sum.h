@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
 
+#include "golden/control_variate.h"
 #include "golden/direction_pool.h"
 #include "golden/lobe_sampling.h"
 #include "golden/shade.h"
@@ -16,6 +16,13 @@ struct ImageSumTask {
   Lighting lighting;  ///< its lights are not used; its curve is needed where there is sheen
   const LobeSampling* sampling = nullptr;
   ImageTexels soft, bright;
+  const ControlVariate* control = nullptr;  ///< may be null: then nothing is found of it
+};
+
+/// What the points of every strategy add up to.
+struct ImageSums {
+  brdf::Rgb<double> radiance{0, 0, 0};  ///< toward the camera by way of the surface
+  brdf::Rgb<double> control{0, 0, 0};   ///< of the soft part times the control variate, in its place
 };
 
 /// Up to a block of points for each strategy.
@@ -32,12 +39,13 @@ struct StrategyPoints {
 ///   section 9.2) bright part, from Bright           F w_b p_b / ((w_b p_b)^2 + q^2)                         (power heuristic of exponent
 ///   2, bright part, from a lobe           F q / ((w_b p_b)^2 + q^2),  q = sum over the lobes      section 9.2.3, the lobes as one)
 ///
-/// so that when strategy k draws n w_k points, the expected sum is n times the integral.
-brdf::Rgb<double> image_sum(const ImageSumTask& task, const StrategyPoints& points);
+/// so that when strategy k draws n w_k points, the expected sum is n times the integral. Lobes give nothing that lies below both normals'
+/// horizons: there a control variate is found by Soft alone.
+ImageSums image_sum(const ImageSumTask& task, const StrategyPoints& points);
 
 /// The same, one direction at a time; and in number::Batch, only where number::has_batch().
-brdf::Rgb<double> image_sum_scalar(const ImageSumTask& task, const StrategyPoints& points);
-brdf::Rgb<double> image_sum_batch(const ImageSumTask& task, const StrategyPoints& points);
+ImageSums image_sum_scalar(const ImageSumTask& task, const StrategyPoints& points);
+ImageSums image_sum_batch(const ImageSumTask& task, const StrategyPoints& points);
 
 /// Directions that light a surface, in arrays, so that a batch of any width finds full lanes.
 struct LitDirections {
@@ -47,6 +55,18 @@ struct LitDirections {
   std::size_t count = 0;
 
   DistantLights lights() const { return {x, y, z, r, g, b}; }
+
+  /// Without a jump whether it is kept, as every other one is not.
+  void add(const LightPoint& p, bool kept) {
+    x[count] = p.x;
+    y[count] = p.y;
+    z[count] = p.z;
+    r[count] = p.r;
+    g[count] = p.g;
+    b[count] = p.b;
+    density[count] = p.density;
+    count += static_cast<std::size_t>(kept);
+  }
 
   /// Fills a last batch with unlit directions.
   void pad(const Vec3<double>& direction, std::size_t lanes) {
@@ -63,14 +83,18 @@ struct LitDirections {
 template <class Real>
 class ImageSum {
  public:
-  explicit ImageSum(const ImageSumTask& task) : task_(task), sampler_(*task.sampling), surface_(spread(*task.surface)) {}
+  explicit ImageSum(const ImageSumTask& task) : task_(task), sampler_(*task.sampling), surface_(spread<Real>(*task.surface)) {}
 
-  brdf::Rgb<double> operator()(const StrategyPoints& points) {
+  ImageSums operator()(const StrategyPoints& points) {
     for (std::size_t k = 0; k < first_lobe; ++k) {
+      const bool soft = k == index_of(Strategy::Soft);
       const std::size_t begin = lit_.count;
       keep(points.light[k], points.count[k]);
       lit_.pad(task_.surface->normal, lanes);
-      weigh(begin, static_cast<double>(task_.sampling->weights[k]), k == index_of(Strategy::Soft));
+      weigh(begin, static_cast<double>(task_.sampling->weights[k]), soft);
+      if (soft && task_.control != nullptr) {
+        control_below(points.light[k], points.count[k]);
+      }
     }
     const std::size_t begin = lit_.count;
     for (std::size_t k = first_lobe; k < strategy_count; ++k) {
@@ -84,8 +108,7 @@ class ImageSum {
     Lighting lighting = task_.lighting;
     lighting.distant = &lights;
     lighting.light_count = (lit_.count + lanes - 1) / lanes;
-    const brdf::Rgb<Real> sum = shade(surface_, task_.layers, lighting, NoListener{}).radiance;
-    return {Lanes::sum(sum.r), Lanes::sum(sum.g), Lanes::sum(sum.b)};
+    return {total(shade(surface_, task_.layers, lighting, NoListener{}).radiance), total(control_)};
   }
 
  private:
@@ -93,49 +116,51 @@ class ImageSum {
   static constexpr std::size_t lanes = Lanes::count;
   static_assert(lanes <= LitDirections::padding);
 
-  // The same surface in every lane: a struct of numbers, each repeated.
-  static Surface<Real> spread(const Surface<double>& surface) {
-    constexpr std::size_t numbers = sizeof(Surface<double>) / sizeof(double);
-    static_assert(sizeof(Surface<Real>) == numbers * sizeof(Real));
-    double one[numbers];
-    std::memcpy(one, &surface, sizeof(one));
-    Real each[numbers];
-    for (std::size_t i = 0; i < numbers; ++i) {
-      each[i] = Real(one[i]);
+  static brdf::Rgb<double> total(const brdf::Rgb<Real>& c) { return {Lanes::sum(c.r), Lanes::sum(c.g), Lanes::sum(c.b)}; }
+
+  // Points of the image that either normal's hemisphere holds.
+  void keep(const LightPoint* points, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      lit_.add(points[i], above(points[i]));
     }
-    Surface<Real> out;
-    std::memcpy(static_cast<void*>(&out), static_cast<const void*>(each), sizeof(each));
-    return out;
   }
 
-  // Points of the image that either normal's hemisphere holds; without a jump, as every other one lies below.
-  void keep(const LightPoint* points, std::size_t count) {
+  bool above(const LightPoint& p) const {
     const Vec3<double>& n = task_.surface->normal;
     const Vec3<double>& c = task_.layers.clearcoat ? task_.surface->coat_normal : n;
-    std::size_t kept = lit_.count;
-    for (std::size_t i = 0; i < count; ++i) {
-      const LightPoint& p = points[i];
-      lit_.x[kept] = p.x;
-      lit_.y[kept] = p.y;
-      lit_.z[kept] = p.z;
-      lit_.r[kept] = p.r;
-      lit_.g[kept] = p.g;
-      lit_.b[kept] = p.b;
-      lit_.density[kept] = p.density;
-      const bool above = p.x * n.x + p.y * n.y + p.z * n.z > 0.0;
-      const bool above_coat = p.x * c.x + p.y * c.y + p.z * c.z > 0.0;
-      kept += static_cast<std::size_t>(above | above_coat);
-    }
-    lit_.count = kept;
+    const bool base = p.x * n.x + p.y * n.y + p.z * n.z > 0.0;
+    const bool coat = p.x * c.x + p.y * c.y + p.z * c.z > 0.0;
+    return base | coat;
   }
+
+  // The control variate where nothing is lit.
+  void control_below(const LightPoint* points, std::size_t count) {
+    const std::size_t begin = lit_.count;
+    for (std::size_t i = 0; i < count; ++i) {
+      lit_.add(points[i], !above(points[i]));
+    }
+    lit_.pad(task_.surface->normal, lanes);
+    using brdf::max;
+    const Real weight(static_cast<double>(task_.sampling->weights[index_of(Strategy::Soft)]));
+    for (std::size_t i = begin; i < lit_.count; i += lanes) {
+      scale(i, Real(1) / max(Lanes::load(lit_.density + i) * weight, Real(1e-300)));
+      add_control(i);
+    }
+    lit_.count = begin;
+  }
+
+  void add_control(std::size_t i) { control_ = control_ + (*task_.control)(direction(i)) * arrived(i); }
 
   Vec3<Real> direction(std::size_t i) const { return {Lanes::load(lit_.x + i), Lanes::load(lit_.y + i), Lanes::load(lit_.z + i)}; }
+  brdf::Rgb<Real> arrived(std::size_t i) const { return {Lanes::load(lit_.r + i), Lanes::load(lit_.g + i), Lanes::load(lit_.b + i)}; }
 
-  void scale(std::size_t i, const Real& by) {
-    Lanes::store(lit_.r + i, Lanes::load(lit_.r + i) * by);
-    Lanes::store(lit_.g + i, Lanes::load(lit_.g + i) * by);
-    Lanes::store(lit_.b + i, Lanes::load(lit_.b + i) * by);
+  void store(std::size_t i, const brdf::Rgb<Real>& radiance) {
+    Lanes::store(lit_.r + i, radiance.r);
+    Lanes::store(lit_.g + i, radiance.g);
+    Lanes::store(lit_.b + i, radiance.b);
   }
+
+  void scale(std::size_t i, const Real& by) { store(i, arrived(i) * by); }
 
   // From the radiance of points drawn from the image to what they add.
   void weigh(std::size_t begin, double weight, bool soft) {
@@ -144,6 +169,9 @@ class ImageSum {
       const Real p = Lanes::load(lit_.density + i) * Real(weight);
       const Real q = sampler_.weighted_density(direction(i));
       scale(i, soft ? Real(1) / max(p + q, Real(1e-300)) : p / max(p * p + q * q, Real(1e-300)));
+      if (soft && task_.control != nullptr) {
+        add_control(i);
+      }
     }
   }
 
@@ -180,15 +208,18 @@ class ImageSum {
       if (lights(task_.soft, place)) {
         const Arrived<Real> soft = look_up(task_.soft, place);
         sum = soft.radiance * (Real(1) / max(soft.density * soft_weight + q, Real(1e-300)));
+        if (task_.control != nullptr) {
+          store(i, sum);
+          lit_.pad(task_.surface->normal, i + lanes > lit_.count ? lanes : 0);
+          add_control(i);
+        }
       }
       if (lights(task_.bright, place)) {
         const Arrived<Real> bright = look_up(task_.bright, place);
         const Real p = bright.density * bright_weight;
         sum = sum + bright.radiance * (q / max(p * p + q * q, Real(1e-300)));
       }
-      Lanes::store(lit_.r + i, sum.r);
-      Lanes::store(lit_.g + i, sum.g);
-      Lanes::store(lit_.b + i, sum.b);
+      store(i, sum);
     }
   }
 
@@ -196,6 +227,7 @@ class ImageSum {
   LobeSampler<Real> sampler_;
   Surface<Real> surface_;
   LitDirections lit_;
+  brdf::Rgb<Real> control_{Real(0), Real(0), Real(0)};
 };
 
 }  // namespace sheen::golden

@@ -3,7 +3,7 @@
 
 namespace sheen::golden {
 
-brdf::Rgb<double> image_sum_batch(const ImageSumTask& task, const StrategyPoints& points) {
+ImageSums image_sum_batch(const ImageSumTask& task, const StrategyPoints& points) {
   return ImageSum<number::Batch>(task)(points);
 }
 

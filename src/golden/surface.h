@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstring>
+
 #include "brdf/base.h"
 #include "golden/vec3.h"
 
@@ -20,6 +23,22 @@ struct Surface {
   brdf::Rgb<Real> emission;
   Real occlusion;  ///< what is left of environment light: 1 + strength (texture.r - 1)
 };
+
+/// The same surface in every lane: a struct of numbers, each repeated.
+template <class Real>
+Surface<Real> spread(const Surface<double>& surface) {
+  constexpr std::size_t numbers = sizeof(Surface<double>) / sizeof(double);
+  static_assert(sizeof(Surface<Real>) == numbers * sizeof(Real));
+  double one[numbers];
+  std::memcpy(one, &surface, sizeof(one));
+  Real each[numbers];
+  for (std::size_t i = 0; i < numbers; ++i) {
+    each[i] = Real(one[i]);
+  }
+  Surface<Real> out;
+  std::memcpy(static_cast<void*>(&out), static_cast<const void*>(each), sizeof(each));
+  return out;
+}
 
 /// Which layers a material has; uniform over a batch.
 struct Layers {
