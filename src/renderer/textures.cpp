@@ -1,6 +1,7 @@
 #include "renderer/textures.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -43,6 +44,50 @@ gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, 
   return texture;
 }
 
+/// Room for an RGBA32F picture, bound; with its mipmaps beside it as shaders/textures.glsl says.
+gles::Texture allocate(const gles::Functions& gl, const std::string& what, int width, int height, bool mipmapped) {
+  const int columns = mipmapped ? width + (width + 1) / 2 : width;
+  const int rows = mipmapped ? height + mip_rows : height;
+  check_texture_size(gl, mipmapped ? what + ", with its mipmaps beside it," : what, columns, rows);
+  gles::Texture texture(gl);
+  bind_unfiltered(gl, texture.name());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, columns, rows, 0, GL_RGBA, GL_FLOAT, nullptr);
+  return texture;
+}
+
+/// Texels into the bound texture.
+void put(const gles::Functions& gl, int x, int y, int width, int height, const std::vector<glm::vec4>& texels) {
+  gl.TexSubImage2D(GL_TEXTURE_2D, 0, x, y, width, height, GL_RGBA, GL_FLOAT, texels.data());
+}
+
+/// Level 0 of a picture into the bound texture, decoded band by band, as many at once as there are processors: what is decoded stays in
+/// their caches.
+void put_rows(const gles::Functions& gl, const scene::Picture& picture, scene::ColorSpace space) {
+  const scene::RowDecoder decoder(picture, space);
+  constexpr int texels_a_band = 1 << 14;
+  const int band = std::clamp(texels_a_band / picture.width, 1, picture.height);
+  std::vector<std::vector<glm::vec4>> bands(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+  for (int first = 0; first < picture.height; first += band * static_cast<int>(bands.size())) {
+    const auto begin = [&](std::size_t i) { return std::min(first + band * static_cast<int>(i), picture.height); };
+    tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) {
+      const int rows = begin(i + 1) - begin(i);
+      bands[i].resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(picture.width));
+      decoder(begin(i), rows, bands[i].data());
+    });
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+      put(gl, 0, begin(i), picture.width, begin(i + 1) - begin(i), bands[i]);
+    }
+  }
+}
+
+/// The levels from 1 on into the bound texture of a picture of that size.
+void put_below(const gles::Functions& gl, int width, int height, std::span<const scene::Texels> levels) {
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const int y = height - (height >> i) + static_cast<int>(i);
+    put(gl, width, y, levels[i].width, levels[i].height, levels[i].rgba);
+  }
+}
+
 }  // namespace
 
 int Pictures::first_equal(const scene::Scene& scene, int picture) const {
@@ -73,26 +118,25 @@ void Pictures::prepare(const scene::Scene& scene, const std::vector<TextureUse>&
       keys.push_back(key);
     }
   }
-  // No more pictures at once than there are processors: each takes 16 bytes a texel, with its
-  // mipmaps 21, while it waits for its upload.
+  // No more pictures at once than there are processors: the mipmaps of each take 5 bytes a texel while they wait for their upload.
   const auto at_once = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   for (std::size_t first = 0; first < keys.size(); first += at_once) {
-    std::vector<std::vector<scene::Texels>> levels(std::min(at_once, keys.size() - first));
-    tbb::parallel_for(std::size_t{0}, levels.size(), [&](std::size_t i) {
+    std::vector<std::vector<scene::Texels>> below(std::min(at_once, keys.size() - first));
+    tbb::parallel_for(std::size_t{0}, below.size(), [&](std::size_t i) {
       const auto& [picture, space, mipmapped] = keys[first + i];
-      scene::Texels texels = scene::decode(scene.pictures.at(static_cast<std::size_t>(picture)), space);
       if (mipmapped) {
-        levels[i] = scene::mipmaps(std::move(texels));
-      } else {
-        levels[i].push_back(std::move(texels));
+        below[i] = scene::mipmaps_below(scene.pictures.at(static_cast<std::size_t>(picture)), space);
       }
     });
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-      const auto& [picture, space, mipmapped] = keys[first + i];
-      const std::string what = scene.file + ": picture '" + scene.pictures[static_cast<std::size_t>(picture)].name + "'";
-      const scene::Texels& level0 = levels[i].front();
-      textures_.emplace(keys[first + i], mipmapped ? upload_mipmapped(*gl_, what, levels[i])
-                                                   : upload_floats(*gl_, what, level0.width, level0.height, level0.rgba));
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      const auto& [index, space, mipmapped] = keys[first + i];
+      const scene::Picture& picture = scene.pictures[static_cast<std::size_t>(index)];
+      const std::string what = scene.file + ": picture '" + picture.name + "'";
+      gles::Texture texture = allocate(*gl_, what, picture.width, picture.height, mipmapped);
+      put_rows(*gl_, picture, space);
+      put_below(*gl_, picture.width, picture.height, below[i]);
+      gles::check(*gl_, "uploading " + what);
+      textures_.emplace(keys[first + i], std::move(texture));
     }
   }
 }
@@ -112,19 +156,10 @@ gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, 
 }
 
 gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& what, const std::vector<scene::Texels>& levels) {
-  const int width = levels.front().width;
-  const int height = levels.front().height;
-  const int columns = width + (width + 1) / 2;
-  const int rows = height + mip_rows;
-  check_texture_size(gl, what + ", with its mipmaps beside it,", columns, rows);
-  gles::Texture texture(gl);
-  bind_unfiltered(gl, texture.name());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, columns, rows, 0, GL_RGBA, GL_FLOAT, nullptr);
-  for (std::size_t level = 0; level < levels.size(); ++level) {
-    const int x = level == 0 ? 0 : width;
-    const int y = level == 0 ? 0 : height - (height >> (level - 1)) + static_cast<int>(level) - 1;
-    gl.TexSubImage2D(GL_TEXTURE_2D, 0, x, y, levels[level].width, levels[level].height, GL_RGBA, GL_FLOAT, levels[level].rgba.data());
-  }
+  const scene::Texels& level0 = levels.front();
+  gles::Texture texture = allocate(gl, what, level0.width, level0.height, true);
+  put(gl, 0, 0, level0.width, level0.height, level0.rgba);
+  put_below(gl, level0.width, level0.height, std::span(levels).subspan(1));
   gles::check(gl, "uploading " + what);
   return texture;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <utility>
 
 namespace sheen::scene {
 namespace {
@@ -48,12 +50,13 @@ std::vector<Footprint> footprints(int above, int below) {
 }
 
 /// The mean of each 2 x 2 texels: what halve() gives for even sizes, to the last bit, three times as fast.
-void halve_even(const Texels& above, Texels& below) {
-  const auto line = static_cast<std::size_t>(above.width);
-  for (std::size_t y = 0; y < static_cast<std::size_t>(below.height); ++y) {
-    const glm::vec4* upper = above.rgba.data() + 2 * y * line;
-    glm::vec4* out = below.rgba.data() + y * static_cast<std::size_t>(below.width);
-    for (std::size_t x = 0; x < 2 * static_cast<std::size_t>(below.width); x += 2) {
+template <class Rows>
+void halve_even(const Rows& rows, Texels& below) {
+  const std::size_t line = 2 * static_cast<std::size_t>(below.width);
+  for (int y = 0; y < below.height; ++y) {
+    const glm::vec4* upper = rows(2 * y, 2);
+    glm::vec4* out = below.rgba.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(below.width);
+    for (std::size_t x = 0; x < line; x += 2) {
       const glm::dvec4 sum =
           glm::dvec4(upper[x]) + glm::dvec4(upper[x + 1]) + glm::dvec4(upper[line + x]) + glm::dvec4(upper[line + x + 1]);
       *out++ = glm::vec4(0.25 * sum);
@@ -61,25 +64,27 @@ void halve_even(const Texels& above, Texels& below) {
   }
 }
 
-Texels halve(const Texels& above) {
+/// The level below one of that size. rows(first, count) gives the texels of so many rows of it, one after the other.
+template <class Rows>
+Texels halve(int width, int height, const Rows& rows) {
   Texels below;
-  below.width = std::max(1, above.width / 2);
-  below.height = std::max(1, above.height / 2);
+  below.width = std::max(1, width / 2);
+  below.height = std::max(1, height / 2);
   below.rgba.resize(static_cast<std::size_t>(below.width) * static_cast<std::size_t>(below.height));
-  if (above.width % 2 == 0 && above.height % 2 == 0) {
-    halve_even(above, below);
+  if (width % 2 == 0 && height % 2 == 0) {
+    halve_even(rows, below);
     return below;
   }
-  const std::vector<Footprint> columns = footprints(above.width, below.width);
-  const std::vector<Footprint> rows = footprints(above.height, below.height);
+  const std::vector<Footprint> across = footprints(width, below.width);
   std::size_t texel = 0;
-  for (const Footprint& row : rows) {
-    for (const Footprint& column : columns) {
+  for (const Footprint& down : footprints(height, below.height)) {
+    const glm::vec4* above = rows(down.first, down.count);
+    for (const Footprint& column : across) {
       glm::dvec4 sum(0.0);
-      for (int y = 0; y < row.count; ++y) {
-        const auto line = static_cast<std::size_t>(row.first + y) * static_cast<std::size_t>(above.width);
+      for (int y = 0; y < down.count; ++y) {
+        const std::size_t line = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
         for (int x = 0; x < column.count; ++x) {
-          sum += row.weight[y] * column.weight[x] * glm::dvec4(above.rgba[line + static_cast<std::size_t>(column.first + x)]);
+          sum += down.weight[y] * column.weight[x] * glm::dvec4(above[line + static_cast<std::size_t>(column.first + x)]);
         }
       }
       below.rgba[texel++] = glm::vec4(sum);
@@ -88,29 +93,59 @@ Texels halve(const Texels& above) {
   return below;
 }
 
+Texels halve(const Texels& above) {
+  return halve(above.width, above.height, [&above](int first, int) {
+    return above.rgba.data() + static_cast<std::size_t>(first) * static_cast<std::size_t>(above.width);
+  });
+}
+
+void add_smaller(std::vector<Texels>& levels) {
+  while (levels.back().width > 1 || levels.back().height > 1) {
+    levels.push_back(halve(levels.back()));
+  }
+}
+
 }  // namespace
+
+RowDecoder::RowDecoder(const Picture& picture, ColorSpace space)
+    : picture_(picture), color_(decoding_table(picture.bits, space)), alpha_(decoding_table(picture.bits, ColorSpace::Linear)) {}
+
+void RowDecoder::operator()(int first, int count, glm::vec4* out) const {
+  const auto line = static_cast<std::size_t>(picture_.width);
+  const std::uint16_t* code = picture_.codes.data() + 4 * line * static_cast<std::size_t>(first);
+  for (std::size_t i = 0; i < line * static_cast<std::size_t>(count); ++i, code += 4) {
+    out[i] = glm::vec4(color_[code[0]], color_[code[1]], color_[code[2]], alpha_[code[3]]);
+  }
+}
 
 Texels decode(const Picture& picture, ColorSpace space) {
   Texels texels;
   texels.width = picture.width;
   texels.height = picture.height;
   texels.rgba.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-  const std::vector<float> color = decoding_table(picture.bits, space);
-  const std::vector<float> alpha = decoding_table(picture.bits, ColorSpace::Linear);
-  const std::uint16_t* code = picture.codes.data();
-  for (glm::vec4& texel : texels.rgba) {
-    texel = glm::vec4(color[code[0]], color[code[1]], color[code[2]], alpha[code[3]]);
-    code += 4;
-  }
+  RowDecoder(picture, space)(0, picture.height, texels.rgba.data());
   return texels;
 }
 
 std::vector<Texels> mipmaps(Texels level0) {
   std::vector<Texels> levels;
   levels.push_back(std::move(level0));
-  while (levels.back().width > 1 || levels.back().height > 1) {
-    levels.push_back(halve(levels.back()));
+  add_smaller(levels);
+  return levels;
+}
+
+std::vector<Texels> mipmaps_below(const Picture& picture, ColorSpace space) {
+  std::vector<Texels> levels;
+  if (picture.width == 1 && picture.height == 1) {
+    return levels;
   }
+  const RowDecoder decoder(picture, space);
+  std::vector<glm::vec4> decoded(static_cast<std::size_t>(picture.width) * std::size(Footprint{}.weight));
+  levels.push_back(halve(picture.width, picture.height, [&](int first, int count) {
+    decoder(first, count, decoded.data());
+    return decoded.data();
+  }));
+  add_smaller(levels);
   return levels;
 }
 

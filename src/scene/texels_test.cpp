@@ -1,6 +1,9 @@
 #include "scene/texels.h"
 
 #include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +66,26 @@ TEST(Texels, OddSizesAreWeightedByArea) {
   const Texels two = mipmaps(row({1, 2, 4, 8, 16}))[1];
   EXPECT_FLOAT_EQ(two.rgba[0].r, static_cast<float>((1 + 2 + 2) / 2.5));
   EXPECT_FLOAT_EQ(two.rgba[1].r, static_cast<float>((2 + 8 + 16) / 2.5));
+}
+
+// Which never holds level 0 as a whole.
+TEST(Texels, LevelsBelowAPictureAreThoseOfItsDecodedTexels) {
+  for (const auto& [width, height, bits] : {std::tuple(8, 6, 8), std::tuple(7, 5, 8), std::tuple(1, 9, 16), std::tuple(1, 1, 8)}) {
+    Picture picture{"", width, height, bits, {}};
+    for (int i = 0; i < 4 * width * height; ++i) {
+      picture.codes.push_back(static_cast<std::uint16_t>(i * 7919 % (1 << bits)));
+    }
+    for (const ColorSpace space : {ColorSpace::Linear, ColorSpace::Srgb}) {
+      const std::vector<Texels> all = mipmaps(decode(picture, space));
+      const std::vector<Texels> below = mipmaps_below(picture, space);
+      ASSERT_EQ(below.size() + 1, all.size());
+      for (std::size_t i = 0; i < below.size(); ++i) {
+        EXPECT_EQ(below[i].width, all[i + 1].width);
+        EXPECT_EQ(below[i].height, all[i + 1].height);
+        EXPECT_EQ(below[i].rgba, all[i + 1].rgba) << width << " x " << height << ", level " << i + 1;
+      }
+    }
+  }
 }
 
 TEST(Texels, EveryLevelKeepsTheMean) {
