@@ -19,6 +19,15 @@ struct BaseMaterial {
     GgxAlbedo average;  // over the hemisphere
 };
 
+// KHR_materials_ior and KHR_materials_specular, or what holds without them.
+#ifdef SPECULAR
+vec3 dielectric_f0(BaseMaterial material) { return material.f0; }
+float specular_strength(BaseMaterial material) { return material.specular; }
+#else
+vec3 dielectric_f0(BaseMaterial material) { return vec3(0.04); }
+float specular_strength(BaseMaterial material) { return 1.0; }
+#endif
+
 // Schlick's term averaged over the hemisphere; a base colour above 1 reflects no more than all.
 vec3 average_fresnel(vec3 F0) { return min(1.0 / 21.0 + 20.0 / 21.0 * F0, vec3(1.0)); }
 
@@ -35,13 +44,8 @@ highp float base_transmitted(GgxAlbedo albedo, highp float F0, highp float stren
 
 // base (N.L), in 1/sr, for N.L > 0.
 vec3 base_times_NdotL(BaseMaterial material, vec3 N, vec3 V, vec3 H, float NdotL, float NdotV) {
-#ifdef SPECULAR
-    vec3 F0 = material.f0;
-    float strength = material.specular;
-#else
-    vec3 F0 = vec3(0.04);
-    float strength = 1.0;
-#endif
+    vec3 F0 = dielectric_f0(material);
+    float strength = specular_strength(material);
     GgxAlbedo light = ggx_directional_albedo(NdotL, material.alpha);
     // A mirror misses nothing, and a dielectric of F0 = 1 lets nothing through.
     highp float f_ms = light.missing * material.view.missing / (PI * max(material.average.missing, 1e-30));

@@ -69,13 +69,8 @@ vec3 sheen_light(vec3 N, float sheenRoughness) {
 // Both the light of many bounces and what reaches the diffuse part are, over all L, what the lobe leaves of 1 for the view: their averages
 // cancel.
 vec3 base_environment(BaseMaterial material, LayerView view, float roughness) {
-#ifdef SPECULAR
-    vec3 F0 = material.f0;
-    float strength = material.specular;
-#else
-    vec3 F0 = vec3(0.04);
-    float strength = 1.0;
-#endif
+    vec3 F0 = dielectric_f0(material);
+    float strength = specular_strength(material);
     vec3 diffuse = diffuse_light(view.N);
     vec3 specular = specular_light(view, roughness);
     vec3 F_ms = multiple_scattering_fresnel(strength * average_fresnel(F0), material.average);

@@ -10,6 +10,7 @@
 
 #include "golden/environment_light.h"
 #include "golden/environment_shade.h"
+#include "golden/test_scenes.h"
 #include "number/cpu.h"
 
 namespace sheen::golden {
@@ -43,22 +44,13 @@ void sum_over(const scene::Environment& e, const Add& add) {
   }
 }
 
+// Turned so that no axis of its frame is one of the image's.
 Surface<double> cloth() {
-  Surface<double> s{};
+  Surface<double> s = test::cloth_under_lacquer(0.5);
   const glm::dvec3 n = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
   const glm::dvec3 v = glm::normalize(glm::dvec3(0.5, 0.4, 0.2));
-  s.normal = s.coat_normal = {n.x, n.y, n.z};
+  s.normal = {n.x, n.y, n.z};
   s.view = {v.x, v.y, v.z};
-  s.base.color = {0.5, 0.3, 0.2};
-  s.base.metallic = 0.3;
-  s.base.alpha = 0.25;
-  s.base.dielectric_f0 = {0.04, 0.04, 0.04};
-  s.base.specular = 1.0;
-  s.sheen_color = {0.8, 0.6, 0.9};
-  s.sheen_roughness = 0.4;
-  s.clearcoat = 0.7;
-  s.coat_alpha = 0.01;
-  s.occlusion = 1.0;
   return s;
 }
 

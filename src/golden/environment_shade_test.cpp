@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "golden/image_sum.h"
+#include "golden/test_scenes.h"
 #include "golden/uniform_light.h"
 #include "number/cpu.h"
 
@@ -17,6 +18,7 @@ namespace sheen::golden {
 namespace {
 
 using Color = brdf::Rgb<double>;
+using test::cloth_under_lacquer;
 
 template <class F>
 scene::Environment image_of(int width, int height, const F& texel) {
@@ -38,24 +40,6 @@ scene::Environment sky_with_sun() {
   });
   e.rotation = 0.7;
   return e;
-}
-
-Surface<double> cloth_under_lacquer(double n_dot_v) {
-  Surface<double> s{};
-  s.normal = {0.0, 1.0, 0.0};
-  s.coat_normal = {0.2, std::sqrt(1.0 - 0.04 - 0.01), 0.1};
-  s.view = {std::sqrt(1.0 - n_dot_v * n_dot_v), n_dot_v, 0.0};
-  s.base.color = {0.5, 0.3, 0.2};
-  s.base.metallic = 0.3;
-  s.base.alpha = 0.09;
-  s.base.dielectric_f0 = {0.04, 0.04, 0.04};
-  s.base.specular = 1.0;
-  s.sheen_color = {0.8, 0.6, 0.9};
-  s.sheen_roughness = 0.4;
-  s.clearcoat = 0.7;
-  s.coat_alpha = 0.04;
-  s.occlusion = 1.0;
-  return s;
 }
 
 Lighting lighting_with(const albedo::Interpolant& interpolant) {

@@ -10,6 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "golden/golden.h"
+#include "golden/surface.h"
 
 namespace sheen::golden::test {
 
@@ -55,6 +56,25 @@ inline scene::Material cloth(double roughness) {
   m.sheen.color_factor = {0.9, 0.5, 0.7};
   m.sheen.roughness_factor = 0.3;
   return m;
+}
+
+/// A point of pink cloth, a third of it metal, under lacquer whose normal is tilted, with V in the plane of X and N.
+inline Surface<double> cloth_under_lacquer(double n_dot_v) {
+  Surface<double> s{};
+  s.normal = {0.0, 1.0, 0.0};
+  s.coat_normal = {0.2, std::sqrt(1.0 - 0.04 - 0.01), 0.1};
+  s.view = {std::sqrt(1.0 - n_dot_v * n_dot_v), n_dot_v, 0.0};
+  s.base.color = {0.5, 0.3, 0.2};
+  s.base.metallic = 0.3;
+  s.base.alpha = 0.09;
+  s.base.dielectric_f0 = {0.04, 0.04, 0.04};
+  s.base.specular = 1.0;
+  s.sheen_color = {0.8, 0.6, 0.9};
+  s.sheen_roughness = 0.4;
+  s.clearcoat = 0.7;
+  s.coat_alpha = 0.04;
+  s.occlusion = 1.0;
+  return s;
 }
 
 /// The square [-half, half]^2 at height z, facing +Z, with texture coordinates (0,0) at its upper left and the normal (bend x, bend y, 1)
