@@ -107,8 +107,8 @@ TEST(ImageSum, BatchesEqualOneAtATime) {
   const EnvironmentLight light(environment);
   const DirectionPool pool(light, 5);
   const albedo::Interpolant interpolant(albedo::Visibility::Charlie);
-  for (const double mu : {0.9, 0.1}) {
-    const Surface<double> surface = cloth_under_lacquer(mu);
+  for (std::size_t count = 8; count < 24; ++count) {  // few of them a multiple of a batch, before or after what lies below is left out
+    const Surface<double> surface = cloth_under_lacquer(count % 2 == 0 ? 0.9 : 0.1);
     const LobeSampling sampling = lobe_sampling(surface, {true, true}, true, true);
     ImageSumTask task{&surface, {true, true}, lighting_with(interpolant), &sampling, light.soft().texels(), light.bright().texels()};
     CurveCache curves;
@@ -117,7 +117,7 @@ TEST(ImageSum, BatchesEqualOneAtATime) {
     DirectionPool::LobeBlock lobe_block;
     StrategyPoints points;
     for (std::uint32_t k = 0; k < strategy_count; ++k) {
-      points.count[k] = 13;  // no multiple of a batch
+      points.count[k] = count;
       if (k < first_lobe) {
         points.light[k] = k == 0 ? pool.soft(k, 0, light_block) : pool.bright(k, 0, light_block);
       } else {
