@@ -60,19 +60,21 @@ BandLimited::BandLimited(const ImageTexels& image) {
   }
   const std::vector<Harmonics> rows = harmonics_of_rows(image);
   // Light is linear in the angle from the pole between the centres of two rows, and constant beyond the first and the last: four nodes of
-  // Gauss-Legendre in each such interval.
+  // Gauss-Legendre in each such interval, or in pieces of it where it is wide.
   constexpr double nodes[] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
   constexpr double weights[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+  const std::size_t pieces = static_cast<std::size_t>((31 + image.height) / image.height);
   for (int y = -1; y < image.height; ++y) {
     const Harmonics& upper = rows[static_cast<std::size_t>(std::max(y, 0))];
     const Harmonics& lower = rows[static_cast<std::size_t>(std::min(y + 1, image.height - 1))];
-    for (std::size_t node = 0; node < std::size(nodes); ++node) {
-      const double begin = y < 0 ? 0.0 : y + 0.5;
-      const double end = y + 1 < image.height ? y + 1.5 : image.height;
-      const double at = begin + (end - begin) * nodes[node];
+    const double begin = y < 0 ? 0.0 : y + 0.5;
+    const double end = y + 1 < image.height ? y + 1.5 : image.height;
+    const double piece = (end - begin) / static_cast<double>(pieces);
+    for (std::size_t i = 0; i < pieces * std::size(nodes); ++i) {
+      const double at = begin + piece * (static_cast<double>(i / std::size(nodes)) + nodes[i % std::size(nodes)]);
       const double down = at - (y + 0.5);
       const double theta = brdf::pi * at / image.height;
-      const double weight = weights[node] * (end - begin) * brdf::pi / image.height * std::sin(theta);
+      const double weight = weights[i % std::size(nodes)] * piece * brdf::pi / image.height * std::sin(theta);
       double* c = coefficients_;
       double power = 1.0;  // (2m-1)!! sin^m
       for (int m = 0; m <= band_degree; ++m) {
@@ -81,8 +83,8 @@ BandLimited::BandLimited(const ImageTexels& image) {
         const std::array<double, 6>& u = upper[static_cast<std::size_t>(m)];
         const std::array<double, 6>& v = lower[static_cast<std::size_t>(m)];
         for (int l = m; l <= band_degree; ++l, c += 6) {
-          for (std::size_t i = 0; i < 6; ++i) {
-            c[i] += weight * now * ((1.0 - down) * u[i] + down * v[i]);
+          for (std::size_t k = 0; k < 6; ++k) {
+            c[k] += weight * now * ((1.0 - down) * u[k] + down * v[k]);
           }
           const double next = ((2 * l + 1) * std::cos(theta) * now - (l + m) * before) / (l + 1 - m);
           before = now;

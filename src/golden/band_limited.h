@@ -15,7 +15,7 @@ class BandLimited {
  public:
   /// No light.
   BandLimited() = default;
-  /// The projection of what look_up() makes of the image, to 1e-7 of its mean for images of 64 rows or more.
+  /// The projection of what look_up() makes of the image, to 1e-7 of its mean.
   explicit BandLimited(const ImageTexels& image);
 
   /// Radiance of the projection from unit directions; may be negative.

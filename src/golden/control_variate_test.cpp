@@ -92,6 +92,25 @@ TEST(BandLimited, HasTheIntegralsOfTheImageAgainstPolynomials) {
   }
 }
 
+// However few rows it has. Of one colour nothing but that colour is left.
+TEST(BandLimited, OfASingleColourIsThatColour) {
+  for (const int rows : {1, 2, 3, 5, 40}) {
+    for (const int columns : {1, 2, 7}) {
+      scene::Environment e;
+      e.width = columns;
+      e.height = rows;
+      e.texels.assign(static_cast<std::size_t>(columns * rows), glm::vec3(0.5f, 2.0f, 0.0f));
+      const EnvironmentLight light(e);
+      for (const glm::dvec3& d : {glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.6, -0.8, 0.0), glm::normalize(glm::dvec3(0.2, 0.1, -0.9))}) {
+        const Color c = light.slow().radiance(Vec3<double>{d.x, d.y, d.z});
+        EXPECT_NEAR(c.r, 0.5, 1e-7) << columns << " x " << rows;
+        EXPECT_NEAR(c.g, 2.0, 1e-7) << columns << " x " << rows;
+        EXPECT_EQ(c.b, 0.0);
+      }
+    }
+  }
+}
+
 TEST(ControlVariate, ItsIntegralIsThatOfItsProductWithTheImage) {
   const scene::Environment e = patches();
   const EnvironmentLight light(e);

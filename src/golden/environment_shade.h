@@ -55,7 +55,7 @@ class EnvironmentEstimate {
   Estimate value() const;
 
  private:
-  static constexpr std::uint32_t first_points = 2;
+  static constexpr std::uint32_t first_points = 4;
 
   const ImageLighting* lighting_;
   Layers layers_;
