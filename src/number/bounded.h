@@ -123,8 +123,10 @@ class Bounded {
     if (a.is_exact() && b.is_exact() && is_representable<Precision>(center)) return exactly(center);
     if (a.scales_exactly(b)) return a.scaled(b.center_);
     if (b.scales_exactly(a)) return b.scaled(a.center_);
-    const double radius =
-        std::abs(a.center_) * b.radius_ + std::abs(b.center_) * a.radius_ + (a.displacement() + a.radius_) * (b.displacement() + b.radius_);
+    // The two parts of the shift may cancel, their roundings in double do not.
+    const double first_order = std::abs(a.center_) * b.displacement() + std::abs(b.center_) * a.displacement();
+    const double radius = std::abs(a.center_) * b.radius_ + std::abs(b.center_) * a.radius_ +
+                          (a.displacement() + a.radius_) * (b.displacement() + b.radius_) + first_order * 0x1p-50;
     // One and the same variable squared is not negative.
     const Range range = &a == &b ? square(a.range_) : product(a.range_, b.range_);
     return rounded(
@@ -141,8 +143,10 @@ class Bounded {
     if (!(smallest >= Precision::smallest_divisor && b.range_.magnitude() <= Precision::largest_divisor)) return unbounded(center);
     const double shift_x = (a.shift_x_ - center * b.shift_x_) / b.center_;
     const double shift_y = (a.shift_y_ - center * b.shift_y_) / b.center_;
-    const double radius =
-        (a.radius_ + std::abs(center) * b.radius_ + (std::abs(shift_x) + std::abs(shift_y)) * (b.displacement() + b.radius_)) / smallest;
+    const double first_order = a.displacement() + std::abs(center) * b.displacement();
+    const double radius = (a.radius_ + std::abs(center) * b.radius_ +
+                           (std::abs(shift_x) + std::abs(shift_y)) * (b.displacement() + b.radius_) + first_order * 0x1p-50) /
+                          smallest;
     return rounded({center, shift_x, shift_y, radius, quotient(a.range_, b.range_)}, Error::ulps(division_ulps), false);
   }
 
@@ -175,7 +179,11 @@ class Bounded {
   }
 
   friend Bounded min(const Bounded& a, const Bounded& b) { return -max(-a, -b); }
-  friend Bounded abs(const Bounded& x) { return max(x, -x); }
+  friend Bounded abs(const Bounded& x) {
+    Bounded b = max(x, -x);
+    if (b.is_bounded()) b.range_.lower = std::max(b.range_.lower, 0.0);
+    return b;
+  }
 
   /// What one operation may add to its exact result.
   struct Error {
@@ -209,15 +217,18 @@ class Bounded {
     b.center_ = x.center;
     b.shift_x_ = x.shift_x;
     b.shift_y_ = x.shift_y;
-    double added = error.at(x.range.magnitude());
+    // Of the exact result too, the form and the range each know what the other does not.
+    const double reach = (b.displacement() + x.radius) * (1 + 0x1p-48) + std::abs(x.center) * 0x1p-50;
+    const Range exact{std::max(x.range.lower, x.center - reach), std::min(x.range.upper, x.center + reach)};
+    double added = error.at(exact.magnitude());
     // Of an end that faces zero, the worst result may come of an exact one further inside, beyond a power of two, where an ulp is larger.
     const auto inner = [&](double end) { return std::min(added, error.smoothly(end)); };
-    b.range_ = {below(x.range.lower - (x.range.lower > 0 ? inner(x.range.lower) : error.at(x.range.lower))),
-                above(x.range.upper + (x.range.upper < 0 ? inner(x.range.upper) : error.at(x.range.upper)))};
-    if (keeps_sign && x.range.lower >= 0) b.range_.lower = std::max(b.range_.lower, 0.0);
-    if (keeps_sign && x.range.upper <= 0) b.range_.upper = std::min(b.range_.upper, 0.0);
+    b.range_ = {below(exact.lower - (exact.lower > 0 ? inner(exact.lower) : error.at(exact.lower))),
+                above(exact.upper + (exact.upper < 0 ? inner(exact.upper) : error.at(exact.upper)))};
+    if (keeps_sign && exact.lower >= 0) b.range_.lower = std::max(b.range_.lower, 0.0);
+    if (keeps_sign && exact.upper <= 0) b.range_.upper = std::min(b.range_.upper, 0.0);
     if (b.range_.lower < smallest_normal<Precision> && b.range_.upper > -smallest_normal<Precision>) {
-      added = std::max(added, std::min(x.range.magnitude(), smallest_normal<Precision> + added));
+      added = std::max(added, std::min(exact.magnitude(), smallest_normal<Precision> + added));
       b.range_ = {std::min(b.range_.lower, 0.0), std::max(b.range_.upper, 0.0)};
     }
     // A few roundings of double, in the centre and in what was computed on the way here, are far below the last factor's room.

@@ -170,8 +170,11 @@ Bounded<Precision> sqrt(const Bounded<Precision>& x) {
       image(x, {value, 0.5 / value, 0.25 * steepest * std::sqrt(steepest), has_no_fraction(x.center()) && has_no_fraction(value)},
             [](double t) { return std::sqrt(t); });
   using B = Bounded<Precision>;
-  const double smallest = B::below(1 / B::above(exact.range.upper));
-  const double largest = B::above(1 / B::below(exact.range.lower));
+  const auto inverted = [](double root, bool upward) {
+    return has_no_fraction(root) ? 1 / root : (upward ? B::above(1 / root) : B::below(1 / root));
+  };
+  const double largest = inverted(exact.range.lower, true);
+  const double smallest = inverted(exact.range.upper, false);
   const double inverse = inverse_sqrt_ulps * std::min(epsilon<Precision>, ulp<Precision>(largest) / smallest);
   const B dividend = B::rounded(exact, B::Error::absolute(inverse / (1 - inverse), 0), false);
   return dividend.is_bounded() ? B::rounded(dividend.as_exact(), B::Error::ulps(division_ulps), false) : dividend;
