@@ -54,7 +54,9 @@ class Bounded {
 
   /// A constant of the shader: exact where the precision can hold it, else rounded to either neighbour.
   explicit Bounded(double value) : Bounded(exactly(value)) {
-    if (!is_representable<Precision>(value)) *this = rounded({value, 0, 0, 0, {value, value}}, Error::ulps(1), true);
+    if (is_representable<Precision>(value)) return;
+    const Exact alone{value, 0, 0, 0, range_};
+    *this = rounded(alone, Error::ulps(1), true);
   }
 
   /// A variable that holds `value` but for an absolute error of at most `radius` >= 0.
@@ -221,20 +223,23 @@ class Bounded {
     const double reach = (b.displacement() + x.radius) * (1 + 0x1p-48) + std::abs(x.center) * 0x1p-50;
     const Range exact{std::max(x.range.lower, x.center - reach), std::min(x.range.upper, x.center + reach)};
     double added = error.at(exact.magnitude());
-    // Of an end that faces zero, the worst result may come of an exact one further inside, beyond a power of two, where an ulp is larger.
-    const auto inner = [&](double end) { return std::min(added, error.smoothly(end)); };
-    b.range_ = {below(exact.lower - (exact.lower > 0 ? inner(exact.lower) : error.at(exact.lower))),
-                above(exact.upper + (exact.upper < 0 ? inner(exact.upper) : error.at(exact.upper)))};
-    if (keeps_sign && exact.lower >= 0) b.range_.lower = std::max(b.range_.lower, 0.0);
-    if (keeps_sign && exact.upper <= 0) b.range_.upper = std::min(b.range_.upper, 0.0);
+    b.range_ = {below(exact.lower - added), above(exact.upper + added)};
+    if (!(exact.upper <= 2 * exact.lower)) {
+      // A wide range, or not a positive one. Of an end that faces zero, the worst result may come of an exact one further inside, beyond a
+      // power of two, where an ulp is larger; of the other end, it is that of the end.
+      const auto slack = [&](double end, bool faces_zero) { return std::min(added, faces_zero ? error.smoothly(end) : error.at(end)); };
+      b.range_ = {below(exact.lower - slack(exact.lower, exact.lower > 0)), above(exact.upper + slack(exact.upper, exact.upper < 0))};
+      if (keeps_sign && exact.lower >= 0) b.range_.lower = std::max(b.range_.lower, 0.0);
+      if (keeps_sign && exact.upper <= 0) b.range_.upper = std::min(b.range_.upper, 0.0);
+    }
     if (b.range_.lower < smallest_normal<Precision> && b.range_.upper > -smallest_normal<Precision>) {
       added = std::max(added, std::min(exact.magnitude(), smallest_normal<Precision> + added));
       b.range_ = {std::min(b.range_.lower, 0.0), std::max(b.range_.upper, 0.0)};
     }
     // A few roundings of double, in the centre and in what was computed on the way here, are far below the last factor's room.
     b.radius_ = (x.radius + added) * (1 + 0x1p-40) + (std::abs(x.center) + b.displacement()) * 0x1p-50;
-    const bool finite = std::isfinite(b.center_) && std::isfinite(b.radius_) && std::isfinite(b.displacement()) &&
-                        b.range_.lower >= -largest_finite<Precision> && b.range_.upper <= largest_finite<Precision>;
+    // The radius is infinite or NaN if anything before it was.
+    const bool finite = b.is_bounded() && b.range_.lower >= -largest_finite<Precision> && b.range_.upper <= largest_finite<Precision>;
     if (!finite) return unbounded(x.center);
     b.tighten();
     return b;
@@ -306,11 +311,12 @@ class Bounded {
 
   /// A product is a power of two only if both factors are, and then double has it exactly; elsewhere one rounding is enclosed. An end that
   /// is widened past a power of two would count a whole ulp where half of one is due.
-  static bool is_exact_product(double a, double b) { return has_no_fraction(a) && has_no_fraction(b); }
+  static bool is_exact_product(double a, double b) { return has_no_fraction(a * b) && has_no_fraction(a) && has_no_fraction(b); }
   static double product_below(double a, double b) { return is_exact_product(a, b) ? a * b : below(a * b); }
   static double product_above(double a, double b) { return is_exact_product(a, b) ? a * b : above(a * b); }
 
   static Range product(const Range& a, const Range& b) {
+    if (a.lower >= 0 && b.lower >= 0) return {product_below(a.lower, b.lower), product_above(a.upper, b.upper)};
     return {std::min(std::min(product_below(a.lower, b.lower), product_below(a.lower, b.upper)),
                      std::min(product_below(a.upper, b.lower), product_below(a.upper, b.upper))),
             std::max(std::max(product_above(a.lower, b.lower), product_above(a.lower, b.upper)),
@@ -327,6 +333,7 @@ class Bounded {
     const auto exact = [](double x, double y) { return has_no_fraction(x / y) && (x / y) * y == x; };
     const auto under = [&](double x, double y) { return exact(x, y) ? x / y : below(x / y); };
     const auto over = [&](double x, double y) { return exact(x, y) ? x / y : above(x / y); };
+    if (a.lower >= 0 && b.lower > 0) return {under(a.lower, b.upper), over(a.upper, b.lower)};
     return {
         std::min(std::min(under(a.lower, b.lower), under(a.lower, b.upper)), std::min(under(a.upper, b.lower), under(a.upper, b.upper))),
         std::max(std::max(over(a.lower, b.lower), over(a.lower, b.upper)), std::max(over(a.upper, b.lower), over(a.upper, b.upper)))};

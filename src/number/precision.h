@@ -90,11 +90,12 @@ constexpr double ulp(double x) {
 template <class Precision>
 bool is_representable(double x) {
   const double magnitude = std::abs(x);
-  if (!(magnitude <= largest_finite<Precision>)) {
-    return false;
+  if (magnitude >= smallest_normal<Precision> && magnitude <= largest_finite<Precision>) {
+    constexpr std::uint64_t beyond = (std::uint64_t{1} << (52 - Precision::fraction_bits)) - 1;
+    return (std::bit_cast<std::uint64_t>(x) & beyond) == 0;
   }
-  const double steps = magnitude / ulp<Precision>(x);  // a division by a power of two
-  return steps == std::floor(steps);
+  const double steps = magnitude / ulp<Precision>(0);  // a division by a power of two
+  return magnitude < smallest_normal<Precision> && steps == std::floor(steps);
 }
 
 }  // namespace sheen::number
