@@ -67,13 +67,11 @@ class Bounded {
   /// @param step    the sample is displaced by at most this much along either axis, in pixels
   /// @param radius  what the linear form leaves out: curvature over the step, rounding of the interpolation; >= 0
   static Bounded at_sample(double value, double per_pixel_x, double per_pixel_y, double step, double radius) {
-    Bounded b = exactly(value);
-    b.shift_x_ = per_pixel_x * step;
-    b.shift_y_ = per_pixel_y * step;
-    b.radius_ = radius;
-    const double deviation = radius + b.displacement();
-    b.range_ = {value - deviation, value + deviation};
-    return deviation == 0 ? b : rounded({value, b.shift_x_, b.shift_y_, radius, b.range_}, Error::absolute(0, 0), false);
+    const double shift_x = per_pixel_x * step;
+    const double shift_y = per_pixel_y * step;
+    const double deviation = (radius + std::abs(shift_x) + std::abs(shift_y)) * (1 + 0x1p-50);
+    if (deviation == 0) return Bounded(value);
+    return rounded({value, shift_x, shift_y, radius, {value - deviation, value + deviation}}, Error::absolute(0, 0), false);
   }
 
   /// A value about which nothing is promised.
