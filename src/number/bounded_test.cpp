@@ -100,6 +100,15 @@ TEST(Division, ErrsByTwoAndAHalfUlp) {
   expect_deviation(Medium(1) / Medium(3), 2.5 * 0x1p-11, "mediump");
 }
 
+TEST(Division, OverARangeErrsMostBeyondAPowerOfTwo) {
+  // Just above 1 an ulp is twice that of 1 itself, so the least result is not that of the range's lower end.
+  const High x = High::within(2, 1) / High(1);
+  EXPECT_LE(x.range().lower, 1 + 0x1p-23 - 2.5 * 0x1p-23);
+  EXPECT_GE(x.range().lower, 1 - 2.5001 * 0x1p-23);
+  EXPECT_GE((-x).range().upper, -1 - 0x1p-23 + 2.5 * 0x1p-23);
+  EXPECT_GE((High::within(-2, 1) / High(1)).range().upper, -1 - 0x1p-23 + 2.5 * 0x1p-23);
+}
+
 TEST(Division, IsUnboundedOutsideTheDivisorsRange) {
   EXPECT_TRUE((High(1) / High(0x1p126)).is_bounded());
   expect_unbounded(High(1) / High(0x1.8p126), "above 2^126");
@@ -267,6 +276,14 @@ TEST(Overflow, IsUnbounded) {
   expect_unbounded(High(3e38) * High(2) - High(3e38) * High(2), "infinity less infinity is no NaN");
 }
 
+TEST(CorrectRounding, NeverPassesZero) {
+  const High x = max(High::within(0.5, 1), High(0));
+  const High y = High::within(3, 1);
+  EXPECT_GE((x * y).range().lower, 0);
+  EXPECT_GE((x + x * y).range().lower, 0);
+  EXPECT_LE((-x * y).range().upper, 0);
+}
+
 TEST(Underflow, MayFlushToZero) {
   const High x = High(0x1p-100) * High(0x1p-30);
   EXPECT_LE(x.range().lower, 0);
@@ -277,6 +294,8 @@ TEST(Underflow, MayFlushToZero) {
   EXPECT_GE(y.range().upper, 0x1.8p-14);
   EXPECT_GE(y.deviation(), 0x1.8p-14);
   EXPECT_TRUE((High(0x1.8p-7) * High(0x1p-7)).is_exact()) << "highp has no need to";
+  const High half = High::within(0x1.8p-126, 0x1p-140) * High(0.5);
+  EXPECT_LE(half.range().lower, 0) << "no multiplication by a power of two is exact down there";
   const High z = High(0x1p-126 * 1.5) - High(0x1p-126);
   EXPECT_LE(z.range().lower, 0) << "a difference of normal numbers";
   const High just_normal = exp(High(-87.336540));  // within its error of 2^-126
