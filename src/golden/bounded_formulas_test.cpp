@@ -13,6 +13,7 @@
 #include "brdf/albedo_scaling.h"
 #include "brdf/base.h"
 #include "brdf/clearcoat.h"
+#include "brdf/physical_base.h"
 #include "brdf/sheen.h"
 #include "number/bounded_functions.h"
 #include "number/perturbed_test.h"
@@ -71,6 +72,16 @@ Real base(const Arguments<Real>& a) {
 }
 
 template <class Real>
+Real physical_base(const Arguments<Real>& a) {
+  const Rgb<Real> white{Real(1), Real(1), Real(1)};
+  const brdf::Base<Real> material{{a.color, a.clearcoat, Real(0)}, a.metallic, a.alpha, brdf::dielectric_f0(Real(1.5), white), Real(1)};
+  // Losses and biases whose sum stays below 1.
+  const auto albedo = [](const Real& x, const Real& y) { return brdf::LobeAlbedo<Real>{x * Real(0.25), y * Real(0.25)}; };
+  const brdf::PhysicalBase<Real> base(material, albedo(a.e_v, a.e_l), albedo(a.sheen_color, a.v_dot_h));
+  return base.brdf(albedo(a.e_l, a.e_v), a.n_dot_l, a.n_dot_v, a.n_dot_h, a.sin2_theta_h, a.v_dot_h).r;
+}
+
+template <class Real>
 Real layers(const Arguments<Real>& a) {
   const Real k = brdf::clearcoat_weight(a.clearcoat, a.n_dot_v);
   const Real s = brdf::albedo_scale(brdf::AlbedoScaling::Full, a.sheen_color, a.e_v, a.e_l);
@@ -110,6 +121,7 @@ std::vector<Formula> formulas() {
       formula("coat weight", [](const auto& a) { return brdf::clearcoat_weight(a.clearcoat, a.n_dot_v); }),
       formula("albedo scale", [](const auto& a) { return brdf::albedo_scale(brdf::AlbedoScaling::Full, a.sheen_color, a.e_v, a.e_l); }),
       formula("base", [](const auto& a) { return base(a); }),
+      formula("physical base", [](const auto& a) { return physical_base(a); }),
       formula("layers", [](const auto& a) { return layers(a); }),
   };
 }
@@ -167,6 +179,7 @@ template <class Precision>
 Survey survey(const Formula& f, int points, int tries) {
   Survey s;
   Points<Precision> source;
+  Decisions::current().seed(1);
   for (int i = 0; i < points; ++i) {
     const Arguments<double> point = source.next();
     const auto bound = bounded_form<Precision>(f)(point.each([](double x) { return Bounded<Precision>(x); }));
@@ -185,7 +198,9 @@ Survey survey(const Formula& f, int points, int tries) {
           }
           return std::abs(x - bound.center());
         });
-    if (bound.deviation() > 0) s.reached.push_back(worst / bound.deviation());
+    // Of exact arguments both descriptions of the bound are to be narrow.
+    const double widest = std::max(bound.deviation(), bound.radius());
+    if (widest > 0) s.reached.push_back(worst / widest);
   }
   return s;
 }
@@ -193,10 +208,10 @@ Survey survey(const Formula& f, int points, int tries) {
 TEST(BoundedFormulas, HoldEveryHighpEvaluationAndAreReachedByAQuarter) {
   long evaluations = 0;
   for (const Formula& f : formulas()) {
-    Survey s = survey<Highp>(f, 400, 220);
+    Survey s = survey<Highp>(f, 300, 280);
     evaluations += s.evaluations;
     EXPECT_EQ(s.escapes, 0) << s.first_escape;
-    EXPECT_GT(s.bounded_points, 350) << f.name << " is unbounded where it need not be";
+    EXPECT_GT(s.bounded_points, 270) << f.name << " is unbounded where it need not be";
     ASSERT_FALSE(s.reached.empty()) << f.name;
     const double reached = median(s.reached);
     EXPECT_GT(reached, 0.25) << f.name << " has too wide a bound";
@@ -231,6 +246,7 @@ struct Motion {
 TEST(BoundedFormulas, HoldWhatADisplacedSampleGives) {
   for (const Formula& f : formulas()) {
     Points<Highp> source;
+    Decisions::current().seed(2);
     long escapes = 0;
     std::vector<double> reached;
     for (int i = 0; i < 300; ++i) {

@@ -46,7 +46,7 @@ struct Range {
 /// the fused operation, for they are taken over ranges that hold the exact product. What the rules promise nothing for is unbounded, and
 /// so is all that comes of it, since it may be NaN.
 ///
-/// Not granted, hence not enclosed: regrouping an expression, which GLSL ES forbids, and shader code that spells a formula differently.
+/// Not enclosed: what a compiler makes of an expression that it regroups, and shader code that spells a formula differently.
 template <class Precision>
 class Bounded {
  public:
@@ -152,7 +152,6 @@ class Bounded {
 
   friend Truth operator<(const Bounded& a, const Bounded& b) {
     const bool at_center = a.center_ < b.center_;
-    if (!a.is_bounded() || !b.is_bounded()) return {at_center, false};
     return {at_center, at_center ? greatest_difference(a, b) < 0 : greatest_difference(b, a) <= 0};
   }
   friend Truth operator>(const Bounded& a, const Bounded& b) { return b < a; }
@@ -239,7 +238,8 @@ class Bounded {
     // The radius is infinite or NaN if anything before it was.
     const bool finite = b.is_bounded() && b.range_.lower >= -largest_finite<Precision> && b.range_.upper <= largest_finite<Precision>;
     if (!finite) return unbounded(x.center);
-    b.tighten();
+    // What was flushed, or overestimated by products of radii, lies no farther off than the range's ends.
+    b.radius_ = std::min(b.radius_, (std::max(b.range_.upper - b.center_, b.center_ - b.range_.lower) + b.displacement()) * (1 + 0x1p-50));
     return b;
   }
 
@@ -259,13 +259,6 @@ class Bounded {
     return b;
   }
 
-  /// Each description of the value improves the other.
-  void tighten() {
-    const double reach = (displacement() + radius_) * (1 + 0x1p-50);
-    range_ = {std::max(range_.lower, below(center_ - reach)), std::min(range_.upper, above(center_ + reach))};
-    radius_ = std::min(radius_, (std::max(range_.upper - center_, center_ - range_.lower) + displacement()) * (1 + 0x1p-50));
-  }
-
   /// This value, or `other` in its place, known to lie within `range`.
   /// @param apart  by how much the other's centre may exceed this one's, on the side where it counts; may be negative
   Bounded joined(const Bounded& other, double apart, const Range& range) const {
@@ -274,7 +267,6 @@ class Bounded {
     const double room = (std::abs(apart) + displacement() + other.displacement() + other.radius_) * 0x1p-50;
     b.radius_ = std::max(radius_, excess + room);
     b.range_ = range;
-    b.tighten();
     return b;
   }
 
@@ -337,7 +329,7 @@ class Bounded {
         std::max(std::max(over(a.lower, b.lower), over(a.lower, b.upper)), std::max(over(a.upper, b.lower), over(a.upper, b.upper)))};
   }
 
-  /// Upper bound of a - b, which knows that both move with the same sample.
+  /// Upper bound of a - b, which knows that both move with the same sample; infinite if either is unbounded.
   static double greatest_difference(const Bounded& a, const Bounded& b) {
     const double affine = (a.center_ - b.center_) + std::abs(a.shift_x_ - b.shift_x_) + std::abs(a.shift_y_ - b.shift_y_) + a.radius_ +
                           b.radius_ + (std::abs(a.center_) + std::abs(b.center_)) * 0x1p-50;

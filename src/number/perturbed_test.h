@@ -24,6 +24,7 @@ class Decisions {
  public:
   explicit Decisions(std::uint64_t seed) : random_(seed) {}
 
+  void seed(std::uint64_t seed) { random_.seed(seed); }
   /// Forgets all; `extreme` is the share of decisions that will be -1 or 1.
   void start_anew(double extreme) {
     extreme_ = extreme;
@@ -44,6 +45,8 @@ class Decisions {
     return made_[next_++];
   }
 
+  /// Those of the evaluation under way, which a number's operations cannot be handed. A test seeds them anew: what it sees depends on no
+  /// other test.
   static Decisions& current() {
     static Decisions decisions(1);
     return decisions;
