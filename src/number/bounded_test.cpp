@@ -347,6 +347,7 @@ TEST(Displacement, FollowsTheDerivativeOfEveryFunction) {
     EXPECT_LT(f.radius(), 1000 * step * step) << what;
   };
   expect_slope(moved + fixed, 1, "x + a");
+  EXPECT_NEAR((moved + fixed).radius(), 0x1p-24, 1e-6 * 0x1p-24) << "one rounding, whatever the displacement";
   expect_slope(fixed - moved, -1, "a - x");
   expect_slope(moved * fixed, 0.625, "a x");
   expect_slope(moved * moved, 2 * x, "x x");
