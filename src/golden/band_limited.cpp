@@ -63,7 +63,7 @@ BandLimited::BandLimited(const ImageTexels& image) {
   // Gauss-Legendre in each such interval, or in pieces of it where it is wide.
   constexpr double nodes[] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
   constexpr double weights[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
-  const std::size_t pieces = static_cast<std::size_t>((31 + image.height) / image.height);
+  const auto pieces = static_cast<std::size_t>((31 + image.height) / image.height);
   for (int y = -1; y < image.height; ++y) {
     const Harmonics& upper = rows[static_cast<std::size_t>(std::max(y, 0))];
     const Harmonics& lower = rows[static_cast<std::size_t>(std::min(y + 1, image.height - 1))];
@@ -71,7 +71,8 @@ BandLimited::BandLimited(const ImageTexels& image) {
     const double end = y + 1 < image.height ? y + 1.5 : image.height;
     const double piece = (end - begin) / static_cast<double>(pieces);
     for (std::size_t i = 0; i < pieces * std::size(nodes); ++i) {
-      const double at = begin + piece * (static_cast<double>(i / std::size(nodes)) + nodes[i % std::size(nodes)]);
+      const std::size_t whole = i / std::size(nodes);
+      const double at = begin + piece * (static_cast<double>(whole) + nodes[i % std::size(nodes)]);
       const double down = at - (y + 0.5);
       const double theta = brdf::pi * at / image.height;
       const double weight = weights[i % std::size(nodes)] * piece * brdf::pi / image.height * std::sin(theta);
