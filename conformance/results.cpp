@@ -24,6 +24,7 @@ json case_json(const CaseResult& one) {
   made["max_rel"] = figure(&Verdict::max_rel);
   made["p99_rel"] = figure(&Verdict::p99_rel);
   made["bound_ratio"] = figure(&Verdict::bound_ratio);
+  made["median_bound"] = figure(&Verdict::median_bound);
   made["compared_pixels"] = figure(&Verdict::compared_pixels);
   made["excluded_pixels"] = figure(&Verdict::excluded_pixels);
   made["vague_pixels"] = figure(&Verdict::vague_pixels);

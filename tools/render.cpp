@@ -8,6 +8,7 @@
 
 #include "conformance/goldens.h"
 #include "conformance/json_text.h"
+#include "conformance/judge.h"
 #include "conformance/verdict.h"
 #include "gles/context.h"
 #include "image/io.h"
@@ -70,7 +71,9 @@ int render(const RenderOptions& options) {
   image::Image picture = renderer.render(scene, options.settings(environment));
   std::optional<conformance::Verdict> verdict;
   if (options.verify) {
-    verdict = conformance::judge(picture, golden_image(scene, options, context->info().subpixel_bits, environment), {});
+    conformance::VerdictRules rules;
+    rules.environment_tolerance = environment ? conformance::environment_tolerance : 0.0;
+    verdict = conformance::judge(picture, golden_image(scene, options, context->info().subpixel_bits, environment), rules);
   }
   apply_display(picture, options.tone_map, options.exposure);
   image::write(options.output, picture);
