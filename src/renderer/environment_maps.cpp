@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <system_error>
 #include <utility>
 
 #include <glm/vec4.hpp>
 
 #include "albedo/split_sum.h"
-#include "image/io.h"
 #include "renderer/environment_points.h"
 #include "renderer/textures.h"
 
 namespace sheen::renderer {
 namespace {
-
-// Counts on when what lies in the folder is made in another way.
-constexpr const char* version = "1";
 
 // shaders/environment_prefiltered.glsl: where the kernels' maps stand below the image, and how much room they take.
 constexpr int sheen_column = 256;
@@ -85,40 +80,13 @@ image::Image build_split_sums() {
 }  // namespace
 
 template <class Make>
-GLuint EnvironmentMaps::keep(Kept& kept, const std::string& key, const Make& make) {
-  if (!kept.texture || kept.key != key) {
-    kept.texture.reset();
-    kept.texture.emplace(make());
-    kept.key = key;
+GLuint EnvironmentMaps::hold(Held& held, const std::string& key, const Make& make) {
+  if (!held.texture || held.key != key) {
+    held.texture.reset();
+    held.texture.emplace(make());
+    held.key = key;
   }
-  return kept.texture->name();
-}
-
-/// The picture of that name in the folder or, where there is none of that size, a new one, which is then put there.
-template <class Make>
-image::Image EnvironmentMaps::from_folder(const std::string& name, int width, int height, const Make& make) const {
-  const std::filesystem::path file = folder_ / (name + "." + version + ".pfm");
-  std::error_code error;
-  if (!folder_.empty() && std::filesystem::is_regular_file(file, error)) {
-    try {
-      image::Image found = image::read(file);
-      if (found.width == width && found.height == height) {
-        return found;
-      }
-    } catch (const image::Error&) {
-      // Damaged: made anew.
-    }
-  }
-  image::Image made = make();
-  if (!folder_.empty()) {
-    std::filesystem::create_directories(folder_, error);
-    try {
-      image::write(file, made);
-    } catch (const image::Error&) {
-      // A folder that cannot be written costs the next program the time, nothing else.
-    }
-  }
-  return made;
+  return held.texture->name();
 }
 
 GLuint EnvironmentMaps::prefiltered(const scene::Environment& environment, const std::vector<Kernel>& kernels) {
@@ -127,13 +95,13 @@ GLuint EnvironmentMaps::prefiltered(const scene::Environment& environment, const
   for (const Kernel kernel : kernels) {
     key += std::string(" ") + kernel_name(kernel);
   }
-  return keep(image_, key, [&] {
+  return hold(image_, key, [&] {
     Sheet sheet = sheet_with(environment, maps_width, maps_height);
     for (const Kernel kernel : kernels) {
       const FilteredPart last = filtered_parts(kernel).back();
       const int width = filtered_parts(kernel).front().width;
-      const image::Image map = from_folder(hash + "." + kernel_name(kernel), width, last.y + last.height,
-                                           [&] { return prefilter(context_, environment, kernel); });
+      const image::Image map = kept_.get(hash + "." + kernel_name(kernel), width, last.y + last.height,
+                                         [&] { return prefilter(context_, environment, kernel); });
       for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
           sheet.at(column_of(kernel) + x, environment.height + y) = {map.at(x, y, 0), map.at(x, y, 1), map.at(x, y, 2), 1.0F};
@@ -145,7 +113,7 @@ GLuint EnvironmentMaps::prefiltered(const scene::Environment& environment, const
 }
 
 GLuint EnvironmentMaps::sampled(const scene::Environment& environment) {
-  return keep(image_, scene::content_hash(environment) + " sampled", [&] {
+  return hold(image_, scene::content_hash(environment) + " sampled", [&] {
     const ImageSampling sampling(environment);
     Sheet sheet = sheet_with(environment, 0, 0);
     for (std::size_t i = 0; i < sheet.texels.size(); ++i) {
@@ -157,7 +125,7 @@ GLuint EnvironmentMaps::sampled(const scene::Environment& environment) {
 
 GLuint EnvironmentMaps::points(const scene::Environment& environment, int count, std::uint64_t seed) {
   const std::string key = scene::content_hash(environment) + " " + std::to_string(count) + " " + std::to_string(seed);
-  return keep(points_, key, [&] {
+  return hold(points_, key, [&] {
     std::optional<ImageSampling> sampling;
     if (environment.is_image()) {
       sampling.emplace(environment);
@@ -169,8 +137,8 @@ GLuint EnvironmentMaps::points(const scene::Environment& environment, int count,
 }
 
 GLuint EnvironmentMaps::split_sums() {
-  return keep(split_sums_, "split sums", [&] {
-    const image::Image table = from_folder("split-sums", split_sum_nodes, split_sum_nodes, build_split_sums);
+  return hold(split_sums_, "split sums", [&] {
+    const image::Image table = kept_.get("split-sums", split_sum_nodes, split_sum_nodes, build_split_sums);
     Sheet sheet(table.width, table.height);
     for (int y = 0; y < table.height; ++y) {
       for (int x = 0; x < table.width; ++x) {
