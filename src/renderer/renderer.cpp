@@ -271,6 +271,7 @@ class SceneDraw {
     for (std::size_t i = 0; i < textures.size(); ++i) {
       const TextureUse& use = drawable.plan.textures[i];
       bind(program, use.name, textures[i]);
+      program.set("u_" + use.name + "_size", Pictures::size(scene_, use));
       if (use.transformed) {
         program.set("u_" + use.name + "_transform", use.info->transform);
       }
