@@ -41,6 +41,14 @@ TEST(GltfTextures, PngKeepsItsCodesOfEightAndSixteenBits) {
   EXPECT_EQ(deep.codes, sixteen);
 }
 
+TEST(GltfTextures, LargePicturesKeepEveryCode) {
+  std::vector<std::uint16_t> codes;
+  for (int i = 0; i < 61 * 47 * 4; ++i) {
+    codes.push_back(static_cast<std::uint16_t>((i * 31 + i / 251) % 256));
+  }
+  EXPECT_EQ(load(textured(png(61, 47, 8, codes))).pictures.at(0).codes, codes);
+}
+
 TEST(GltfTextures, JpegIsDecodedAndOpaque) {
   const Picture picture = load(textured(jpeg(), "image/jpeg")).pictures.at(0);
   ASSERT_EQ(picture.codes.size(), 8U * 8U * 4U);
