@@ -105,6 +105,25 @@ TEST(GltfTextures, NoDamagedJpegGetsFurtherThanItsDecoder) {
   }
 }
 
+TEST(GltfTextures, FilesOfEqualBytesAreOnePicture) {
+  Asset asset = triangle();
+  const Bytes red = png(1, 1, 8, {255, 0, 0, 255});
+  const Bytes blue = png(1, 1, 8, {0, 0, 255, 255});
+  const char* const slots[] = {"emissiveTexture", "occlusionTexture", "normalTexture"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    asset.material()[slots[i]]["index"] = asset.add_texture(i == 1 ? blue : red);
+  }
+  const Scene scene = load(asset);
+  const auto red_of = [&](const TextureInfo& info) {
+    const Texture& texture = scene.textures.at(static_cast<std::size_t>(info.texture));
+    return scene.pictures.at(static_cast<std::size_t>(texture.picture)).codes[0];
+  };
+  EXPECT_EQ(scene.pictures.size(), 2U);
+  EXPECT_EQ(red_of(scene.materials[0].emissive_texture), 255);
+  EXPECT_EQ(red_of(scene.materials[0].occlusion_texture), 0);
+  EXPECT_EQ(red_of(scene.materials[0].normal_texture), 255);
+}
+
 TEST(GltfTextures, OnlyPicturesThatAMaterialUsesAreLoaded) {
   Asset asset = triangle();
   asset.add_texture({1, 2, 3});
