@@ -53,9 +53,9 @@ vec4 texture_bilinear(sampler2D image, vec2 uv, ivec2 origin, ivec2 size, int wr
 }
 
 // A picture with its mipmaps is one texture of one level, for llvmpipe takes the level of a texelFetch from a quad's first pixel, and other
-// drivers may. Its texels are 128 bits: four floats, or at level 0 the codes of four texels of a row, 8 bits each from red upwards, a row of
-// even number being followed by the next one on the same line. Level 1 lies under level 0, the others side by side under level 1, each far
-// enough from the one before; after the last level stands a copy of it.
+// drivers may. Its texels are 128 bits: four floats, or at level 0 the codes of four texels of a row, 8 bits each from red upwards, a row
+// of even number being followed by the next one on the same line. Level 1 lies under level 0, the others side by side under level 1, each
+// far enough from the one before; after the last level stands a copy of it.
 ivec2 level_origin(ivec2 size, int storage, int level) {
     if (level == 0) return ivec2(0);
     int row = storage == STORED_FLOATS ? size.y : (size.y + 1) >> 1;
@@ -63,20 +63,17 @@ ivec2 level_origin(ivec2 size, int storage, int level) {
     return ivec2((size.x >> 1) - (size.x >> (level - 1)) + level - 2, row + max(size.y >> 1, 1));
 }
 
-// IEC 61966-2-1. log2 and exp2 may be some digits off: a step of Newton's method from the fifth root of x^2 that they give restores them.
+// IEC 61966-2-1. x^2.4 as x^2 x^0.4, whose exponent is small: exp2 and log2 may be off by some digits of it.
 vec3 srgb_to_linear(vec3 code) {
-    vec3 x = (code + 0.055) / 1.055;
-    vec3 square = x * x;
-    vec3 root = exp2(0.4 * log2(x));
-    vec3 fourth = root * root * root * root;
-    root -= (fourth * root - square) / (5.0 * fourth);
-    return mix(square * root, code / 12.92, lessThanEqual(code, vec3(0.04045)));
+    vec3 x = (code + 0.055) * (1.0 / 1.055);
+    return mix(x * x * exp2(0.4 * log2(x)), code * (1.0 / 12.92), lessThanEqual(code, vec3(0.04045)));
 }
 
-// A texel of which this is the code. 1 / 255 is 257 / 65536 (1 + 1 / 65535), of which the first part times a code is exact.
+// A texel of which this is the code. Written three times in a row, the 8 bits of c are 2^24 - 1 times c / 255, exactly; what that lacks of
+// 2^24 times is added with the one rounding.
 vec4 decoded(uint code, int storage) {
-    vec4 channels = vec4(uvec4(code, code >> 8, code >> 16, code >> 24) & 255u);
-    vec4 value = channels * (257.0 / 65536.0) + channels * (257.0 / 65536.0 / 65535.0);
+    ivec4 c = ivec4(uvec4(code, code >> 8, code >> 16, code >> 24) & 255u);
+    vec4 value = vec4(c * 0x010101) * (1.0 / 16777216.0) + vec4(c) * (1.0 / 255.0 / 16777216.0);
     return storage == STORED_SRGB_CODES ? vec4(srgb_to_linear(value.rgb), value.a) : value;
 }
 

@@ -37,12 +37,13 @@ scene::Picture motley(int width, int height, int bits) {
   return picture;
 }
 
-/// How far a shader's value may lie from the decoded one, relative: each operation within half a unit of 2^-23 and each division within
-/// 2.5 (GLSL ES 3.00, section 4.5.1). A code over 255 takes two products and a sum; sRGB's x three more, and x^2.4 magnifies what they
-/// miss 2.4 times.
+/// How far a shader's value may lie from the decoded one, in units of its last digit, of which a sum or a product takes 1 (GLSL ES
+/// 3.00.6, section 4.5.1), its rounding mode being open. A code's 255th is rounded once. sRGB's x = (code + 0.055) / 1.055 adds
+/// a sum and a product with a constant that is half a unit off, and x^2.4 magnifies that 2.4 times. Its x^0.4 misses 0.4 ln 2 times the 6
+/// units of log2 (3 of a value up to 3.5), ln 2 of its exponent's product, and the 3 + 2 * 1.4 of exp2; then there are two products.
 double allowed(ColorSpace space, double value) {
-  constexpr double unit = 1.1920929e-7;
-  return value * unit * (space == ColorSpace::Linear ? 1.5 : 2.4 * (1.5 + 0.5 + 2.5) + 2.5);
+  constexpr double unit = 0x1p-23;
+  return value * unit * (space == ColorSpace::Linear ? 1.0 : 2.4 * 3.5 + 0.28 * 6.0 + 0.7 + 5.8 + 2.0);
 }
 
 class PictureTexturing : public testing::Test {
