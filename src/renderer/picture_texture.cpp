@@ -16,7 +16,7 @@
 namespace sheen::renderer {
 namespace {
 
-/// Texels of 128 bits, each the codes of four texels of a row, that a line of level 0 takes for one row.
+/// Texels of 128 bits that a row of level 0 takes as codes.
 int fours(int width) {
   return (width + 3) / 4;
 }
@@ -76,16 +76,17 @@ PictureTexture::Place PictureTexture::origin(int level) const {
 }
 
 /// Lines of level 0 that fill(first, count, out) gives, as many bands at once as there are processors: what is made stays in their caches.
-template <class Fill>
+template <class Value, class Fill>
 void PictureTexture::put_lines(int columns, int lines, const Fill& fill) const {
   constexpr int texels_a_band = 1 << 14;
+  constexpr std::size_t values_a_texel = 16 / sizeof(Value);
   const int band = std::clamp(texels_a_band / columns, 1, lines);
-  std::vector<std::vector<glm::uvec4>> bands(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+  std::vector<std::vector<Value>> bands(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
   for (int first = 0; first < lines; first += band * static_cast<int>(bands.size())) {
     const auto begin = [&](std::size_t i) { return std::min(first + band * static_cast<int>(i), lines); };
     tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) {
       const int count = begin(i + 1) - begin(i);
-      bands[i].resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(columns));
+      bands[i].resize(values_a_texel * static_cast<std::size_t>(count) * static_cast<std::size_t>(columns));
       fill(begin(i), count, bands[i].data());
     });
     for (std::size_t i = 0; i < bands.size(); ++i) {
@@ -100,15 +101,13 @@ void PictureTexture::put_level0(const scene::Picture& picture, scene::ColorSpace
   const int lines = lines_of_level0(storage_, height_);
   if (storage_ == Storage::Floats) {
     const scene::RowDecoder decoder(picture, space);
-    put_lines(columns, lines, [&](int first, int count, glm::uvec4* out) {
-      decoder(first, count, reinterpret_cast<glm::vec4*>(out));  // of the same size; the driver takes the bits alone
-    });
+    put_lines<glm::vec4>(columns, lines, decoder);
     return;
   }
-  put_lines(columns, lines, [&](int first, int count, glm::uvec4* out) {
-    for (int row = 2 * first; row < std::min(2 * (first + count), height_); ++row, out += fours(width_)) {
+  put_lines<std::uint32_t>(columns, lines, [&](int first, int count, std::uint32_t* out) {
+    for (int row = 2 * first; row < std::min(2 * (first + count), height_); ++row, out += std::ptrdiff_t{4} * fours(width_)) {
       const std::size_t at = std::size_t{4} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(row);
-      pack(picture.codes.data() + at, width_, &out->x);
+      pack(picture.codes.data() + at, width_, out);
     }
   });
 }

@@ -36,7 +36,7 @@ class PictureTexture {
     int x, y;
   };
   Place origin(int level) const;
-  template <class Fill>
+  template <class Value, class Fill>
   void put_lines(int columns, int lines, const Fill& fill) const;
 
   const gles::Functions* gl_;
