@@ -39,8 +39,7 @@ image::Image golden_image(const scene::Scene& scene, const SceneOptions& options
 int golden(const GoldenOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
-  const scene::Scene scene = load_scene(options);
-  const std::optional<scene::Environment> environment = load_environment(options, scene);
+  const auto [scene, environment] = load_input(options);
   golden::SamplingGoal sampling;
   sampling.seed = static_cast<std::uint64_t>(options.seed);
   if (options.samples) {
