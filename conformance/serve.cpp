@@ -114,12 +114,16 @@ class LastEnvironment {
 };
 
 /// Draws what the request asks for and fills the answer in.
-void answer_request(const json& request, renderer::Renderer& renderer, renderer::Precision precision, LastEnvironment& last, json& answer) {
+void answer_request(const json& request, renderer::Renderer& renderer, renderer::Precision precision, const ServeOptions& options,
+                    LastEnvironment& last, json& answer) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string output = request.at("output").get<std::string>();
   renderer::Settings settings = read_settings(request, precision);
   settings.environment = last.of(request);
-  const scene::Scene scene = scene::load_gltf(request.at("scene").get<std::string>());
+  scene::Scene scene = scene::load_gltf(request.at("scene").get<std::string>());
+  if (options.alter) {
+    options.alter(scene, settings);
+  }
   image::write(output, renderer.render(scene, settings));
   answer["status"] = "rendered";
   answer["image"] = output;
@@ -156,7 +160,7 @@ void serve(std::istream& in, std::ostream& out, const ServeOptions& options) {
     try {
       const json request = json::parse(line);
       answer["id"] = request.at("id");
-      answer_request(request, renderer, precision, last, answer);
+      answer_request(request, renderer, precision, options, last, answer);
     } catch (const std::exception& error) {
       answer["status"] = "failed";
       answer["message"] = error.what();
