@@ -15,14 +15,17 @@ constexpr const char* missing_word = "missing";
 constexpr const char* joined_style = R"css(
 :root { --missing: #8a8f98; }
 header, main { max-width: 1500px; }
+header { padding-bottom: 0; }
+main { padding-top: 0; }
 table.drivers { margin: 14px 0; }
 table.drivers td { max-width: 320px; overflow-wrap: anywhere; vertical-align: top; padding-right: 24px; }
 table.cases { width: 100%; font-size: 13px; background: var(--paper); }
+table.drivers th, table.drivers td, table.cases th, table.cases td { text-align: left; }
 table.cases th, table.cases td { padding: 4px 12px; vertical-align: top; }
 table.cases td:first-child { font-family: ui-monospace, "DejaVu Sans Mono", monospace; overflow-wrap: anywhere; }
 tr[hidden] { display: none; }
 .suite { color: var(--soft); }
-.small { display: block; color: var(--soft); font-size: 11px; }
+.small { display: block; white-space: nowrap; color: var(--soft); font-size: 11px; }
 table.cases .message { font: 12px/1.4 system-ui, "DejaVu Sans", sans-serif; max-width: 90ch; }
 )css";
 

@@ -35,7 +35,7 @@ done
 [ ${#chosen_drivers[@]} -gt 0 ] && drivers=("${chosen_drivers[@]}")
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-report=${report:-$PWD/build/drivers}
+report=${report:-build/drivers}
 tools/setup.sh --drivers
 cmake --preset release
 cmake --build --preset release --target sheen-cts
