@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, runs suites on Mesa's software drivers, each in processes of its own, and lays the results side by side.
-#   tools/drivers.sh [--suite NAME]... [--driver NAME]... [--filter GLOB] [--case-limit SECONDS] [--report DIR]
-# Without --suite: core, function and extremes, as far as this build has them. Exit codes are those of sheen-cts: 0 all passed on every
-# driver, 1 something failed, 2 usage, 4 a driver is missing.
+#   tools/drivers.sh [--suite NAME]... [--driver NAME]... [--filter GLOB] [--case-limit SECONDS] [--report DIR] [--program FILE]
+# Without --suite: core, function and extremes, as far as this build has them. With --program nothing is installed or built: that sheen-cts
+# runs. Exit codes are those of sheen-cts: 0 all passed on every driver, 1 something failed, 2 usage, 4 a driver is missing.
 set -euo pipefail
 
 drivers=(llvmpipe-osmesa llvmpipe-egl softpipe zink)
 suites=(core function extremes)
 
 usage() {
-  echo "usage: tools/drivers.sh [--suite NAME]... [--driver NAME]... [--filter GLOB] [--case-limit SECONDS] [--report DIR]" >&2
+  echo "usage: tools/drivers.sh [--suite NAME]... [--driver NAME]... [--filter GLOB] [--case-limit SECONDS] [--report DIR]" \
+    "[--program FILE]" >&2
   echo "  suites: ${suites[*]}, or any that 'sheen-cts list --json' names; drivers: ${drivers[*]}" >&2
   exit 2
 }
@@ -20,6 +21,7 @@ filter='*'
 # What one picture may take: softpipe interprets a shader pixel by pixel.
 case_limit=600
 report=
+program=
 while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || usage
   case $1 in
@@ -28,6 +30,7 @@ while [ $# -gt 0 ]; do
     --filter) filter=$2 ;;
     --case-limit) case_limit=$2 ;;
     --report) report=$(realpath -m -- "$2") ;;
+    --program) program=$(realpath -- "$2") ;;
     *) usage ;;
   esac
   shift 2
@@ -36,10 +39,12 @@ done
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 report=${report:-build/drivers}
-tools/setup.sh --drivers
-cmake --preset release
-cmake --build --preset release --target sheen-cts
-program=build/release/sheen-cts
+if [ -z "$program" ]; then
+  tools/setup.sh --drivers
+  cmake --preset release
+  cmake --build --preset release --target sheen-cts
+  program=build/release/sheen-cts
+fi
 
 # How a driver is asked for, what its GL_RENDERER must begin with (zink's names the Vulkan driver below it), and the package it comes with.
 # Mesa takes another driver without a word where the one asked for is missing.
