@@ -276,7 +276,8 @@ Action declare_run(CLI::App& app) {
 
 Action declare_join(CLI::App& app) {
   auto options = std::make_shared<JoinOptions>();
-  app.add_option("RUN", options->runs, "Report folder of a run, as DIR or NAME=DIR; runs of several suites on one driver, or its shards, share a NAME")
+  app.add_option("RUN", options->runs,
+                 "Report folder of a run, as DIR or NAME=DIR; runs of several suites on one driver, or its shards, share a NAME")
       ->type_name("DIR")
       ->required();
   add_path(app, "-o,--output", options->output, "Folder of the joint report")->type_name("DIR")->required();
