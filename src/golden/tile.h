@@ -32,6 +32,13 @@ struct Pixel {
   bool mirrored = false;
 };
 
+/// Texels of a texture without mipmaps by which a driver's choice may be off for the bound to hold all that it may find: sample_box() looks
+/// at every edge of a box of 16, and under an environment, and at masks, corners alone are looked at, which must see all texels.
+inline constexpr double most_texels = 8.0;
+inline constexpr double most_texels_of_corners = 0.5;
+/// Of texture coordinates, as LodChoice has them.
+inline const std::array<glm::dvec2, 4> nudges{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
+
 /// Of the light of an image, in the bound: a normal deviate passes five once in 1.7 million.
 inline constexpr double standard_errors = 5.0;
 
