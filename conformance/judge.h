@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "conformance/viewer.h"
 
 namespace sheen::conformance {
+
+struct FunctionFindings;  // function_findings.h
 
 /// A case, ready to be drawn and judged.
 struct PreparedCase {
@@ -48,8 +51,9 @@ struct CaseResult {
   std::filesystem::path scene_file;
   std::optional<Diagnosis> diagnosis;
   CasePictures pictures;
-  std::vector<ScenePicture> scenes;  ///< of a relation, in the place of candidate and golden
-  std::string law;                   ///< of a relation, with its source
+  std::vector<ScenePicture> scenes;                  ///< of a relation, in the place of candidate and golden
+  std::string law;                                   ///< of a relation, with its source
+  std::shared_ptr<const FunctionFindings> findings;  ///< of a function, in the place of pictures
 };
 
 /// Writes the scene, reads it back, computes the golden. Never throws: what goes wrong is the case's `problem`. Safe to call from many

@@ -5,6 +5,8 @@
 
 #include "conformance/html.h"
 
+#include "conformance/report_function.h"
+
 namespace sheen::conformance {
 namespace {
 
@@ -131,7 +133,8 @@ std::string terms(const CaseResult& one) {
            std::to_string(d.x) + ", " + std::to_string(d.y) + ")</summary>" + fit_table(d) + point_table(d.terms) + light_table(d.terms) +
            "</details>";
   }
-  html += "<details><summary>scene</summary><code>" + escape_html(one.scene_file.string());
+  html +=
+      "<details><summary>" + std::string(one.findings ? "arguments" : "scene") + "</summary><code>" + escape_html(one.scene_file.string());
   for (const ScenePicture& scene : one.scenes) {
     html += escape_html(scene.label + ": " + scene.scene_file.string()) + "<br>";
   }
@@ -153,9 +156,9 @@ std::string pictures(const CaseResult& one) {
 
 std::string card(const CaseResult& one) {
   const std::string word = to_string(one.status);
-  std::string html =
-      "<article data-status=" + word + " data-name=\"" + escape_html(one.name) + "\" style=\"--status:var(--" + word + ")\">";
-  html += pictures(one);
+  std::string html = "<article" + std::string(one.findings ? " class=function" : "") + " data-status=" + word + " data-name=\"" +
+                     escape_html(one.name) + "\" style=\"--status:var(--" + word + ")\">";
+  html += one.findings ? function_pictures(*one.findings) : pictures(one);
   html += "<div><h2><span class=badge>" + word + "</span>" + escape_html(one.name) + "</h2>";
   // A message about a broken law quotes it.
   html += one.law.empty() || one.message.find(one.law) != std::string::npos ? "" : "<p class=law>" + escape_html(one.law) + "</p>";
@@ -214,7 +217,7 @@ std::string escape_html(const std::string& text) {
 }
 
 std::string report_html(const RunRecord& record) {
-  std::string cards;
+  std::string cards = formulation_table(record);
   for (const Status status : statuses) {
     for (const CaseResult& one : record.cases) {
       if (one.status == status) {

@@ -46,6 +46,23 @@ th, td { text-align: right; padding: 1px 10px 1px 0; border-bottom: 1px solid va
 th:first-child, td:first-child { text-align: left; }
 th { color: var(--soft); font-weight: 500; }
 code { font: 12px ui-monospace, "DejaVu Sans Mono", monospace; overflow-wrap: anywhere; }
+.plots { width: 100%; flex: none; display: block; }
+.plots rect { fill: var(--ground); stroke: var(--line); }
+.plots polyline { fill: none; stroke-width: 1.5; }
+.plots .bound { stroke: var(--fail); }
+.plots .error { stroke: var(--pass); }
+.plots text { fill: var(--soft); font-size: 11px; }
+article.function { grid-template-columns: 1fr; }
+article.function .pictures { max-width: none; flex-wrap: nowrap; }
+article.function figure { flex: none; }
+article.function details { grid-column: 1; }
+.wide { overflow-x: auto; }
+table.formulation { background: var(--paper); width: 100%; }
+table.formulation td, table.formulation th { padding: 5px 12px 5px 0; vertical-align: middle; }
+table.formulation th[colspan] { text-align: center; }
+table.formulation td:first-child { padding-left: 12px; }
+table.formulation img { width: 84px; height: 84px; }
+table.formulation figcaption { font-size: 11px; }
 @media (max-width: 760px) { article { grid-template-columns: 1fr; } details { grid-column: 1; } }
 )css";
 

@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "conformance/function_findings.h"
 #include "conformance/json_text.h"
+#include "conformance/shading_words.h"
 
 namespace sheen::conformance {
 namespace {
@@ -25,6 +27,16 @@ json case_json(const CaseResult& one) {
   made["excluded_pixels"] = figure(&Verdict::excluded_pixels);
   made["vague_pixels"] = figure(&Verdict::vague_pixels);
   made["nonfinite_pixels"] = figure(&Verdict::nonfinite_pixels);
+  if (one.findings) {
+    const FunctionCase& tested = one.findings->tested;
+    made["function"] = {{"name", tested.function},
+                        {"precision", to_string(tested.precision)},
+                        {"formulation", to_string(tested.formulation)},
+                        {"arguments", to_string(tested.arguments)},
+                        {"nan_samples", one.findings->nan_samples},
+                        {"infinite_samples", one.findings->infinite_samples},
+                        {"largest_error", one.findings->largest_error}};
+  }
   if (verdict != nullptr && verdict->worst_x >= 0) {
     made["worst_pixel"] = {verdict->worst_x, verdict->worst_y};
   }

@@ -16,6 +16,7 @@
 #include "conformance/glb.h"
 #include "conformance/goldens.h"
 #include "conformance/judge.h"
+#include "conformance/judge_function.h"
 #include "conformance/judge_relation.h"
 #include "conformance/paths.h"
 #include "conformance/report.h"
@@ -128,20 +129,23 @@ class Session {
   const Hello& hello() const { return hello_; }
   void plan(std::vector<std::size_t> order) {
     total_ = order.size();
-    // Relations have no golden to prepare.
-    std::erase_if(order, [this](std::size_t index) { return index >= suite_.cases.size(); });
+    // Relations and functions have no golden to prepare.
+    std::erase_if(order, [this](std::size_t index) { return suite_.case_at(index) == nullptr; });
     prefetcher_.start(std::move(order));
   }
   std::size_t planned() const { return total_; }
 
-  /// Runs the case or relation of that index.
+  /// Runs the case, relation or function of that index.
   const CaseResult& run_case(std::size_t index) {
     CaseResult& result = results_[index];
-    if (index < suite_.cases.size()) {
+    if (suite_.case_at(index) != nullptr) {
       result = hold_to_golden(index);
-    } else {
+    } else if (const Relation* relation = suite_.relation_at(index)) {
       result = judge_relation(
-          suite_.relations[index - suite_.cases.size()], [this](const Case& scene) { return draw_scene(scene); }, hello_, images_);
+          *relation, [this](const Case& scene) { return draw_scene(scene); }, hello_, images_);
+    } else {
+      result = judge_function(
+          *suite_.function_at(index), [this](const FunctionRequest& request) { return viewer_.evaluate(request); }, hello_, images_);
     }
     if (options_.progress) {
       options_.progress({results_.size(), total_, suite_.name_of(index), to_string(result.status), result.message});

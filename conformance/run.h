@@ -64,7 +64,7 @@ struct CaseInfo {
   std::string name;
   std::string visibility, albedo_scaling;
   int width = 0, height = 0;
-  std::string law;  ///< of a relation; empty for a case that is judged by its golden
+  std::string law;  ///< of a relation; what is tried of a function; empty for a case that is judged by its golden
 };
 
 /// The cases of a suite that the filter (as in RunOptions) lets through, in order. Throws std::invalid_argument for an unknown suite.

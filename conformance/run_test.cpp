@@ -12,6 +12,7 @@
 
 #include "conformance/case_scene.h"
 #include "conformance/child_process.h"
+#include "conformance/function_samples.h"
 #include "conformance/golden_store.h"
 #include "conformance/suite.h"
 #include "conformance/test_folder.h"
@@ -326,6 +327,34 @@ TEST_F(RunTest, GoogleTestsOwnFilterVariableIsHonoured) {
       run_with(foreign_hello, {{"*", "unsupported"}}, "defaults.*", "lenient", {"GTEST_FILTER=core.defaults.sheen_empty"});
   ASSERT_EQ(outcome.results["cases"].size(), 1U);
   EXPECT_EQ(outcome.ending, "exited with status 1") << "nothing passed";
+}
+
+TEST_F(RunTest, FunctionsAreAskedOfViewersThatEvaluateThemAndHeldToTheirPromises) {
+  suite_ = "function";
+  const auto values = [this](const char* name, float rounding) {
+    const FunctionSamples samples = make_samples({name, "exp2", renderer::Precision::Highp, renderer::Formulation::Stable,
+                                                  name == std::string("right") ? ArgumentSet::Dense : ArgumentSet::Random, 64, 64});
+    image::Image picture(64, 64, {"R", "G", "B", "A"});
+    for (std::size_t i = 0; i < samples.promises.size(); ++i) {
+      picture.data[4 * i] = static_cast<float>(samples.promises[i].front().value) * rounding;
+    }
+    const fs::path file = folder_.path() / (std::string(name) + ".exr");
+    image::write(file, picture);
+    return json{{"image", file.string()}};
+  };
+  // 2^-16 is 128 ulp; near 0 an exponential is granted 3.
+  const json answers = {{"exp2.highp.dense", values("right", 1)}, {"exp2.highp.random", values("wrong", 1 + 0x1p-16F)}};
+  const std::string filter = "operation.exp2.highp.dense:operation.exp2.highp.random";
+  json hello = foreign_hello;
+  hello["capabilities"] = {"functions"};
+  const Outcome outcome = run_with(hello, answers, filter);
+  EXPECT_EQ(outcome.ending, "exited with status 1");
+  EXPECT_EQ(outcome.status("operation.exp2.highp.dense"), "pass") << outcome.results.dump(1);
+  EXPECT_EQ(outcome.status("operation.exp2.highp.random"), "fail");
+  EXPECT_GT(outcome.find("operation.exp2.highp.random")["bound_ratio"].get<double>(), 1);
+  EXPECT_EQ(outcome.find("operation.exp2.highp.dense")["function"]["precision"], "highp");
+  EXPECT_NE(contents("index.html").find("<svg class=plots"), std::string::npos);
+  EXPECT_EQ(run_with(foreign_hello, answers, filter).status("operation.exp2.highp.dense"), "unsupported");
 }
 
 TEST(Run, AFilterThatMatchesNothingIsNotAPass) {

@@ -11,8 +11,10 @@
 #include "conformance/environment_input.h"
 #include "conformance/goldens.h"
 #include "conformance/json_text.h"
+#include "conformance/shading_words.h"
 #include "gles/context.h"
 #include "image/io.h"
+#include "renderer/function_evaluator.h"
 #include "renderer/renderer.h"
 #include "scene/gltf.h"
 
@@ -29,26 +31,6 @@ gles::ContextKind parse_context(const std::string& word) {
     return gles::ContextKind::Egl;
   }
   throw std::invalid_argument("unknown context '" + word + "'; known: osmesa, egl");
-}
-
-renderer::Precision parse_precision(const std::string& word) {
-  if (word == "highp") {
-    return renderer::Precision::Highp;
-  }
-  if (word == "mediump") {
-    return renderer::Precision::Mediump;
-  }
-  throw std::invalid_argument("unknown precision '" + word + "'; known: highp, mediump");
-}
-
-renderer::Formulation parse_formulation(const std::string& word) {
-  if (word == "literal") {
-    return renderer::Formulation::Literal;
-  }
-  if (word == "stable") {
-    return renderer::Formulation::Stable;
-  }
-  throw std::invalid_argument("unknown formulation '" + word + "'; known: literal, stable");
 }
 
 renderer::Settings read_settings(const json& request, renderer::Precision precision) {
@@ -113,18 +95,46 @@ class LastEnvironment {
   scene::Environment environment_;
 };
 
-/// Draws what the request asks for and fills the answer in.
-void answer_request(const json& request, renderer::Renderer& renderer, renderer::Precision precision, const ServeOptions& options,
-                    LastEnvironment& last, json& answer) {
+/// What answers requests: drawing scenes, evaluating functions.
+struct Server {
+  Server(gles::Context& context, renderer::Precision precision_, const ServeOptions& options_)
+      : precision(precision_), options(options_), renderer(context, default_cache() / "environments"), evaluator(context) {}
+
+  image::Image draw(const json& request) {
+    renderer::Settings settings = read_settings(request, precision);
+    settings.environment = last.of(request);
+    scene::Scene scene = scene::load_gltf(request.at("scene").get<std::string>());
+    if (options.alter) {
+      options.alter(scene, settings);
+    }
+    return renderer.render(scene, settings);
+  }
+  image::Image evaluate(const json& request) {
+    renderer::Settings settings = read_settings(request, precision);
+    if (options.alter) {
+      scene::Scene none;
+      options.alter(none, settings);
+    }
+    const image::Image arguments = image::read(request.at("arguments").get<std::string>());
+    image::Image result = evaluator.evaluate(request["function"].get<std::string>(), arguments, settings.view.height, settings);
+    if (result.width != settings.view.width) {
+      throw std::invalid_argument("width must be that of the arguments, " + std::to_string(result.width));
+    }
+    return result;
+  }
+
+  renderer::Precision precision;
+  const ServeOptions& options;
+  renderer::Renderer renderer;
+  renderer::FunctionEvaluator evaluator;
+  LastEnvironment last;
+};
+
+/// Does what the request asks for and fills the answer in.
+void answer_request(const json& request, Server& server, json& answer) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string output = request.at("output").get<std::string>();
-  renderer::Settings settings = read_settings(request, precision);
-  settings.environment = last.of(request);
-  scene::Scene scene = scene::load_gltf(request.at("scene").get<std::string>());
-  if (options.alter) {
-    options.alter(scene, settings);
-  }
-  image::write(output, renderer.render(scene, settings));
+  image::write(output, request.contains("function") ? server.evaluate(request) : server.draw(request));
   answer["status"] = "rendered";
   answer["image"] = output;
   answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -137,19 +147,19 @@ void serve(std::istream& in, std::ostream& out, const ServeOptions& options) {
   const gles::ContextKind kind = parse_context(options.context);
   const std::unique_ptr<gles::Context> context = gles::Context::create(kind);
   const gles::ContextInfo& info = context->info();
-  renderer::Renderer renderer(*context, default_cache() / "environments");
-  LastEnvironment last;
-  const json hello = {{"viewer", "sheen-cts"},
-                      {"version", SHEEN_CTS_VERSION},
-                      {"capabilities",
-                       {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_materials_ior",
-                        "KHR_materials_specular", "KHR_materials_sheen", "KHR_materials_clearcoat", "environment", "settings"}},
-                      {"encoding", "linear-float"},
-                      {"context",
-                       {{"renderer", info.renderer},
-                        {"version", info.version},
-                        {"mediump_bits", info.mediump_bits},
-                        {"subpixel_bits", info.subpixel_bits}}}};
+  Server server(*context, precision, options);
+  const json hello = {
+      {"viewer", "sheen-cts"},
+      {"version", SHEEN_CTS_VERSION},
+      {"capabilities",
+       {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
+        "KHR_materials_sheen", "KHR_materials_clearcoat", "environment", "settings", "functions"}},
+      {"encoding", "linear-float"},
+      {"context",
+       {{"renderer", info.renderer},
+        {"version", info.version},
+        {"mediump_bits", info.mediump_bits},
+        {"subpixel_bits", info.subpixel_bits}}}};
   out << hello.dump() << std::endl;
   std::string line;
   while (std::getline(in, line)) {
@@ -160,7 +170,7 @@ void serve(std::istream& in, std::ostream& out, const ServeOptions& options) {
     try {
       const json request = json::parse(line);
       answer["id"] = request.at("id");
-      answer_request(request, renderer, precision, options, last, answer);
+      answer_request(request, server, answer);
     } catch (const std::exception& error) {
       answer["status"] = "failed";
       answer["message"] = error.what();

@@ -132,6 +132,31 @@ TEST_F(ServeTest, DrawsTheSceneAndTheSettingsAsTheyWereAltered) {
   EXPECT_GT(altered.at(2, 6, 0), plain.at(8, 6, 0) + 6.0F);
 }
 
+TEST_F(ServeTest, EvaluatesAFunctionAtTheArgumentsOfAFile) {
+  image::Image arguments(3, 2, {"R", "G", "B", "A"});
+  arguments.at(2, 1, 0) = 3;
+  image::write(folder_.path() / "arguments.exr", arguments);
+  json exponent = request("exponent");
+  exponent.erase("scene");
+  exponent["function"] = "exp2";
+  exponent["arguments"] = (folder_.path() / "arguments.exr").string();
+  exponent["width"] = 3;
+  exponent["height"] = 2;
+  json unknown = exponent;
+  unknown["function"] = "exp3";
+  json narrow = exponent;
+  narrow["width"] = 2;
+  const std::vector<std::string> lines = lines_for(exponent.dump() + "\n" + unknown.dump() + "\n" + narrow.dump() + "\n");
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_TRUE(parse_hello(lines[0]).evaluates_functions());
+  EXPECT_EQ(json::parse(lines[1])["status"], "rendered") << lines[1];
+  const image::Image result = image::read(folder_.path() / "exponent.exr");
+  EXPECT_EQ(result.at(2, 1, 0), 8.0F);
+  EXPECT_EQ(result.at(0, 0, 0), 1.0F);
+  EXPECT_NE(json::parse(lines[2])["message"].get<std::string>().find("unknown function 'exp3'"), std::string::npos) << lines[2];
+  EXPECT_EQ(json::parse(lines[3])["status"], "failed");
+}
+
 TEST_F(ServeTest, UnknownOptionsAreRefused) {
   std::istringstream in;
   std::ostringstream out;

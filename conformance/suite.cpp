@@ -81,7 +81,9 @@ void add_groups(const ordered_json& groups, const json& defaults, const std::str
       if (!names.insert(point.name).second) {
         throw SuiteError(file, element, "two cases are named '" + point.name + "'");
       }
-      if (point.description.contains("relation")) {
+      if (point.description.contains("function")) {
+        suite.functions.push_back(make_function_case(std::move(point), file, element));
+      } else if (point.description.contains("relation")) {
         suite.relations.push_back(make_relation(std::move(point), file, element));
       } else {
         suite.cases.push_back(make_case(std::move(point), file, element));
@@ -90,9 +92,19 @@ void add_groups(const ordered_json& groups, const json& defaults, const std::str
   }
 }
 
-/// What `list` shows of a case, or of the first scene of a relation.
-CaseInfo info_of(const Case& one, const std::string& name, const std::string& law) {
-  return {name, to_string(one.model.visibility), to_string(one.model.scaling), one.width, one.height, law};
+/// What `list` shows of a case, of the first scene of a relation, of a function.
+CaseInfo info_of(const Suite& suite, std::size_t index) {
+  const Relation* relation = suite.relation_at(index);
+  if (const FunctionCase* function = suite.function_at(index)) {
+    return {function->name, "", "", function->width, function->height, describe(*function)};
+  }
+  const Case& one = relation == nullptr ? suite.cases[index] : relation->scenes.front();
+  return {suite.name_of(index),
+          to_string(one.model.visibility),
+          to_string(one.model.scaling),
+          one.width,
+          one.height,
+          relation == nullptr ? one.law : relation->law};
 }
 
 }  // namespace
@@ -178,13 +190,9 @@ std::vector<CaseInfo> list(const std::string& suite_name, const std::string& fil
   const Suite suite = load_suite(suite_name);
   std::vector<CaseInfo> cases;
   for (std::size_t i = 0; i < suite.size(); ++i) {
-    const std::string& name = suite.name_of(i);
-    if (!matches_filter(filter, suite.name, name)) {
-      continue;
+    if (matches_filter(filter, suite.name, suite.name_of(i))) {
+      cases.push_back(info_of(suite, i));
     }
-    const bool is_case = i < suite.cases.size();
-    const Relation* relation = is_case ? nullptr : &suite.relations[i - suite.cases.size()];
-    cases.push_back(is_case ? info_of(suite.cases[i], name, suite.cases[i].law) : info_of(relation->scenes.front(), name, relation->law));
   }
   return cases;
 }

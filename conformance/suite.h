@@ -6,24 +6,36 @@
 #include <vector>
 
 #include "conformance/case.h"
+#include "conformance/function_case.h"
 #include "conformance/relation.h"
 #include "conformance/sweep.h"
 
 namespace sheen::conformance {
 
-/// Cases, each judged by its golden, and relations, each judged by its law, expanded from one file of declared sweeps
-/// (conformance/suites/README.md has the language).
+/// Cases, each judged by its golden, relations, each judged by its law, and functions, each judged by what is promised of it, expanded from
+/// one file of declared sweeps (conformance/suites/README.md has the language).
 struct Suite {
   std::string name;
   std::string description;
   std::vector<Case> cases;
   std::vector<Relation> relations;
+  std::vector<FunctionCase> functions;
 
-  /// Everything that is judged: the cases, then the relations.
-  std::size_t size() const { return cases.size() + relations.size(); }
-  /// Name of the case or relation of that index.
+  /// Everything that is judged: the cases, then the relations, then the functions.
+  std::size_t size() const { return cases.size() + relations.size() + functions.size(); }
+  /// That of an index, or null where the index is another kind's.
+  const Case* case_at(std::size_t index) const { return index < cases.size() ? &cases[index] : nullptr; }
+  const Relation* relation_at(std::size_t index) const {
+    return index >= cases.size() && index - cases.size() < relations.size() ? &relations[index - cases.size()] : nullptr;
+  }
+  const FunctionCase* function_at(std::size_t index) const {
+    const std::size_t others = cases.size() + relations.size();
+    return index >= others ? &functions.at(index - others) : nullptr;
+  }
+  /// Name of what has that index.
   const std::string& name_of(std::size_t index) const {
-    return index < cases.size() ? cases[index].name : relations[index - cases.size()].name;
+    const Relation* relation = relation_at(index);
+    return case_at(index) != nullptr ? cases[index].name : relation != nullptr ? relation->name : function_at(index)->name;
   }
 };
 

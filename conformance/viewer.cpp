@@ -53,11 +53,19 @@ std::optional<int> integer_member(const json& object, const char* key) {
 }  // namespace
 
 bool Hello::takes_settings() const {
-  return std::find(capabilities.begin(), capabilities.end(), "settings") != capabilities.end();
+  return can("settings");
 }
 
 bool Hello::maps_tones() const {
-  return std::find(capabilities.begin(), capabilities.end(), "tone-mapped") != capabilities.end();
+  return can("tone-mapped");
+}
+
+bool Hello::evaluates_functions() const {
+  return can("functions");
+}
+
+bool Hello::can(const std::string& capability) const {
+  return std::find(capabilities.begin(), capabilities.end(), capability) != capabilities.end();
 }
 
 Hello parse_hello(const std::string& line) {
@@ -131,6 +139,30 @@ void Viewer::start() {
 }
 
 Answer Viewer::draw(const Request& request) {
+  json line = {{"scene", request.scene.string()},
+               {"environment", request.environment.empty() ? json(nullptr) : json(request.environment.string())},
+               {"camera", request.camera},
+               {"width", request.width},
+               {"height", request.height},
+               {"output", request.output.string()},
+               {"settings", {{"visibility", to_string(request.model.visibility)}, {"albedo_scaling", to_string(request.model.scaling)}}}};
+  if (!request.environment.empty()) {
+    line["settings"]["environment_samples"] = request.environment_samples;
+  }
+  return ask(std::move(line), request.output);
+}
+
+Answer Viewer::evaluate(const FunctionRequest& request) {
+  return ask({{"function", request.function},
+              {"arguments", request.arguments.string()},
+              {"width", request.width},
+              {"height", request.height},
+              {"output", request.output.string()},
+              {"settings", {{"precision", request.precision}, {"formulation", request.formulation}}}},
+             request.output);
+}
+
+Answer Viewer::ask(json request, const std::filesystem::path& output) {
   if (!child_) {
     if (failed_starts_ >= most_failed_starts) {
       return {AnswerStatus::Crash, {}, 0, "the viewer could not be started again"};
@@ -145,32 +177,22 @@ Answer Viewer::draw(const Request& request) {
   }
   // A picture left from before must not be judged in the place of one that was not drawn.
   std::error_code ignored;
-  std::filesystem::remove(request.output, ignored);
-  return exchange(request);
+  std::filesystem::remove(output, ignored);
+  const std::string id = std::to_string(++serial_);
+  request["id"] = id;
+  return exchange(request, id, output);
 }
 
-Answer Viewer::exchange(const Request& request) {
-  const std::string id = std::to_string(++serial_);
-  json line = {{"id", id},
-               {"scene", request.scene.string()},
-               {"environment", request.environment.empty() ? json(nullptr) : json(request.environment.string())},
-               {"camera", request.camera},
-               {"width", request.width},
-               {"height", request.height},
-               {"output", request.output.string()},
-               {"settings", {{"visibility", to_string(request.model.visibility)}, {"albedo_scaling", to_string(request.model.scaling)}}}};
-  if (!request.environment.empty()) {
-    line["settings"]["environment_samples"] = request.environment_samples;
-  }
+Answer Viewer::exchange(const json& request, const std::string& id, const std::filesystem::path& output) {
   const auto begin = std::chrono::steady_clock::now();
   const auto elapsed = [begin] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
   const Deadline deadline = deadline_in(limits_.case_seconds);
-  const bool written = child_->write_line(json_text(line), deadline);
+  const bool written = child_->write_line(json_text(request), deadline);
   std::string answer;
   // A viewer that closed its input may still have said why.
   switch (child_->read_line(answer, written ? deadline : deadline_in(1))) {
     case ChildProcess::ReadStatus::Line:
-      return interpret(answer, id, request, elapsed());
+      return interpret(answer, id, output, elapsed());
     case ChildProcess::ReadStatus::Timeout:
       return lost(AnswerStatus::Timeout, "no answer within " + json_text(json(limits_.case_seconds)) + " s", 0, elapsed());
     case ChildProcess::ReadStatus::TooLong:
@@ -190,7 +212,7 @@ Answer Viewer::lost(AnswerStatus status, const std::string& what, double grace_s
   return answer;
 }
 
-Answer Viewer::interpret(const std::string& line, const std::string& id, const Request& request, double seconds) {
+Answer Viewer::interpret(const std::string& line, const std::string& id, const std::filesystem::path& output, double seconds) {
   const json root = json::parse(line, nullptr, false);
   if (root.is_discarded() || !root.is_object()) {
     return lost(AnswerStatus::Invalid, "the answer is no JSON object: " + shorten(line), 0, seconds);
@@ -207,7 +229,7 @@ Answer Viewer::interpret(const std::string& line, const std::string& id, const R
   if (status == "rendered") {
     answer.status = AnswerStatus::Rendered;
     const std::string image = text_member(root, "image");
-    answer.image = image.empty() ? request.output : std::filesystem::path(image);
+    answer.image = image.empty() ? output : std::filesystem::path(image);
   } else if (status == "unsupported") {
     answer.status = AnswerStatus::Unsupported;
   } else if (status == "failed") {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "albedo/sheen_model.h"
 #include "conformance/child_process.h"
 
@@ -29,6 +31,11 @@ struct Hello {
   bool takes_settings() const;
   /// Whether it says that its pictures went through a tone mapping.
   bool maps_tones() const;
+  /// Whether it evaluates functions alone.
+  bool evaluates_functions() const;
+
+ private:
+  bool can(const std::string& capability) const;
 };
 
 /// One picture to ask for.
@@ -41,6 +48,17 @@ struct Request {
   albedo::SheenModel model;
   std::filesystem::path environment{};  ///< an equirect; empty: none
   int environment_samples = 0;          ///< for a viewer that takes settings
+};
+
+/// A function to be evaluated by a viewer that can: one of renderer/functions.h.
+struct FunctionRequest {
+  std::string function;
+  std::filesystem::path arguments;  ///< as renderer::FunctionEvaluator takes them
+  int width = 0;                    ///< of the result, in pixels
+  int height = 0;
+  std::filesystem::path output;
+  std::string precision;    ///< "highp", "mediump"
+  std::string formulation;  ///< "literal", "stable"
 };
 
 enum class AnswerStatus { Rendered, Unsupported, Failed, Crash, Timeout, Invalid };
@@ -67,13 +85,15 @@ class Viewer {
 
   const Hello& hello() const { return hello_; }
   Answer draw(const Request& request);
+  Answer evaluate(const FunctionRequest& request);
   /// Ends it in order: its input is closed and it is given a few seconds.
   void finish();
 
  private:
   void start();
-  Answer exchange(const Request& request);
-  Answer interpret(const std::string& line, const std::string& id, const Request& request, double seconds);
+  Answer ask(nlohmann::json request, const std::filesystem::path& output);
+  Answer exchange(const nlohmann::json& request, const std::string& id, const std::filesystem::path& output);
+  Answer interpret(const std::string& line, const std::string& id, const std::filesystem::path& output, double seconds);
   Answer lost(AnswerStatus status, const std::string& what, double grace_seconds, double seconds);
 
   std::vector<std::string> command_;

@@ -65,5 +65,5 @@ vec3 base_times_NdotL(BaseMaterial material, vec3 N, vec3 V, vec3 H, float NdotL
     highp float diffuse = through * NdotL / PI;
     vec3 dielectric = F * lobe + multiple * F_ms + diffuse * material.baseColor;
     vec3 metal = metal_F * lobe + multiple * metal_F_ms;
-    return dielectric * (1.0 - material.metallic) + metal * material.metallic;  // as in base.glsl
+    return dielectric * rest(material.metallic) + metal * material.metallic;
 }

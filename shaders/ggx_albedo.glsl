@@ -36,7 +36,8 @@ GgxAlbedo ggx_directional_albedo(highp float NdotX, highp float alpha) {
         highp float m = 1.0 - mu;
         return GgxAlbedo(0.0, 1.0 - m * m * m * m * m);
     }
-    highp float t = mu / (1.0 + sqrt((1.0 - mu) * (1.0 + mu)));
+    // GLSL derives sqrt from inversesqrt, for which nothing is promised at 0.
+    highp float t = mu / (1.0 + sqrt(max((1.0 - mu) * (1.0 + mu), 1e-30)));
     highp float position = -log(t) / GGX_ALBEDO_STEP_X;
     int column = clamp(int(position) - 1, 0, textureSize(u_ggx_albedo, 0).x - 5);
     highp vec4 wx = ggx_cubic_weights(position - float(column));

@@ -38,7 +38,7 @@ vec3 reflected_light(Surface surface, vec3 L) {
 #endif
     }
 #ifdef CLEARCOAT
-    reflected *= 1.0 - surface.k;
+    reflected *= rest(surface.k);
     float NcdotL = min(dot(surface.coat_view.N, L), 1.0);
     if (NcdotL > 0.0) {
         vec3 Hc = normalize_or(L + surface.coat_view.V, surface.coat_view.N);

@@ -15,7 +15,7 @@ const highp float SHEEN_ALBEDO_MIN_ROUGHNESS = 4.84e-6;
 const int SHEEN_ALBEDO_BRANCH_COLUMN = 16;
 
 // ln(1 + t2) for t2 in [0, 1] by the series of 2 artanh(t2 / (2 + t2)): log(1.0 + t2) would lose the digits that p magnifies.
-// The first dropped term is below 1e-9 of the sum.
+// What is dropped is below 2e-9 of the sum.
 highp float sheen_log1p(highp float t2) {
     highp float y = t2 / (2.0 + t2);
     highp float y2 = y * y;
@@ -36,7 +36,8 @@ highp float sheen_directional_albedo(highp float NdotX, highp float sheenRoughne
     }
     highp float r = min(sheenRoughness, 1.0);
     highp float mu = clamp(NdotX, MIN_N_DOT_V, 1.0);
-    highp float t = mu / (1.0 + sqrt((1.0 - mu) * (1.0 + mu)));
+    // GLSL derives sqrt from inversesqrt, for which nothing is promised at 0.
+    highp float t = mu / (1.0 + sqrt(max((1.0 - mu) * (1.0 + mu), 1e-30)));
     highp vec2 position = vec2(-log(t) / SHEEN_ALBEDO_STEP_X, (SHEEN_ALBEDO_DENSITY * (1.0 - r) - log(r)) / SHEEN_ALBEDO_STEP_Y);
     ivec2 size = textureSize(u_sheen_albedo, 0);
     ivec2 first = clamp(ivec2(position) - 1, ivec2(0), size - 4);

@@ -1,10 +1,10 @@
-// Directional albedo E of the sheen lobe by an analytic fit of twelve coefficients, for N.X >= 0.005: within 0.0204 (Charlie) and 0.0139
-// (Ashikhmin) for sheenRoughness >= 0.1, 0.0241 and 0.0276 for >= 0.05, and of no use below.
+// Directional albedo E of the sheen lobe by an analytic fit of twelve coefficients, for N.X >= 0.005: within 0.0205 (Charlie) and 0.0150
+// (Ashikhmin) for sheenRoughness >= 0.1, 0.0325 and 0.0367 for >= 0.05, and of no use below.
 //   E = min(1, exp(-z + cubic(t, s))),  z = -ln((1 + sqrt(1 - N.X^2)) / 2) / (2 sheenRoughness^2)
 float sheen_directional_albedo(float NdotX, float sheenRoughness) {
     if (sheenRoughness <= 0.0) return 0.0;
     float r = sheenRoughness;
-    float z = -log(0.5 * (1.0 + sqrt(max(1.0 - NdotX * NdotX, 0.0)))) / (2.0 * r * r);
+    float z = -log(0.5 * (1.0 + sqrt(max(1.0 - NdotX * NdotX, 1e-30)))) / (2.0 * r * r);
 #ifdef VISIBILITY_CHARLIE
     float t = log(NdotX + 2.88269 * r);
     float s = pow(r, 0.744932);

@@ -22,8 +22,8 @@ highp float log_one_minus(highp float x) {
 float sheen_distribution(vec3 N, vec3 H, float sheenRoughness) {
     highp float roughness = sheenRoughness;
     highp float inv_r = 1.0 / (roughness * roughness);
-    float NdotH = dot(N, H);
-    float cos2h = NdotH * NdotH;
+    highp float NdotH = dot(N, H);
+    highp float cos2h = NdotH * NdotH;
     highp float log_sin2h;
     if (cos2h < 0.25) {
         log_sin2h = log_one_minus(cos2h);
@@ -31,7 +31,7 @@ float sheen_distribution(vec3 N, vec3 H, float sheenRoughness) {
         highp vec3 NxH = cross(N, H);
         log_sin2h = log(max(dot(NxH, NxH), 1e-30));
     }
-    highp float value = (2.0 + inv_r) * exp(max(0.5 * inv_r * log_sin2h, -87.0)) / (2.0 * PI);
+    highp float value = (1.0 + 0.5 * inv_r) * exp(max(0.5 * inv_r * log_sin2h, -87.0)) * INV_PI;
     return min(value, LARGEST_SHADING_VALUE);
 }
 #endif

@@ -1,8 +1,12 @@
 // KHR_materials_sheen, "Sheen visibility": Conty and Kulla 2017 with the coefficients of the file before this one.
 
-// pow(0, c) is 0, but GLSL derives it from log2(0), for which nothing is promised.
 float l(float x, SheenCoefficients k) {
+#ifdef FORMULATION_LITERAL
+    float power = pow(x, k.c);
+#else
+    // pow(0, c) is 0, but GLSL derives it from log2(0), for which nothing is promised.
     float power = x > 0.0 ? pow(x, k.c) : 0.0;
+#endif
     return k.a / (1.0 + k.b * power) + k.d * x + k.e;
 }
 

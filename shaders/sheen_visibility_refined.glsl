@@ -4,11 +4,13 @@
 SheenCoefficients sheen_coefficients(float alpha_g) {
     highp float alpha = alpha_g;
     alpha = max(alpha, 1e-9);
-    float w = -1.59612 / (1.0 + 0.20375 * pow(alpha, -0.55825)) + 1.32805;
-    float a = mix(11.9095, 13.7000, w);
-    float b = mix(4.68753, 2.92754, w);
-    float c = mix(0.33467, 0.28670, w);
-    float d = mix(-2.22664, -0.81757, w);
-    float e = mix(-1.76591, -1.22466, w);
+    highp float q = 1.59612 / (1.0 + 0.20375 * pow(alpha, -0.55825));
+    highp float w = 1.32805 - q;
+    highp float v = q - 0.32805;  // 1 - w
+    float a = 13.7000 * w + 11.9095 * v;
+    float b = 2.92754 * w + 4.68753 * v;
+    float c = 0.28670 * w + 0.33467 * v;
+    float d = -0.81757 * w - 2.22664 * v;
+    float e = -1.22466 * w - 1.76591 * v;
     return SheenCoefficients(a, b, c, d, e);
 }

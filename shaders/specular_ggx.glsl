@@ -21,13 +21,13 @@ float V_GGX_times_NdotL(float NdotL, float NdotV, float alpha) {
 }
 #else
 // D = k^2 / pi with k = alpha / (|N x H|^2 + alpha^2 (N.H)^2): the same value, without the difference of two numbers near 1 (Filament,
-// "Specular D", for half floats). A half float holds at most 65504.
+// "Specular D", for half floats).
 float D_GGX(vec3 N, vec3 H, float alpha) {
     float NdotH = dot(N, H);
     vec3 NxH = cross(N, H);
     float a = alpha * NdotH;
     float k = alpha / (dot(NxH, NxH) + a * a);
-    float D = min(k * k * (1.0 / PI), LARGEST_SHADING_VALUE);
+    float D = min(k * k * INV_PI, LARGEST_SHADING_VALUE);
     return NdotH > 0.0 ? D : 0.0;
 }
 
@@ -44,5 +44,6 @@ float V_GGX_times_NdotL(float NdotL, float NdotV, float alpha) {
 // D Vis (N.L), in 1/sr, for N.L > 0.
 float specular_ggx(vec3 N, vec3 H, float NdotL, float NdotV, float alpha) {
     if (alpha < MIRROR_ALPHA) return 0.0;
-    return D_GGX(N, H, alpha) * V_GGX_times_NdotL(NdotL, NdotV, alpha);
+    highp float D = D_GGX(N, H, alpha);
+    return min(D * V_GGX_times_NdotL(NdotL, NdotV, alpha), LARGEST_SHADING_VALUE);
 }

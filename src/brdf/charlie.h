@@ -36,12 +36,17 @@ struct LambdaCurve {
   }
 };
 
-/// l's coefficients as KHR_materials_sheen prints them, mixed by (1 - alpha_g)^2. Table 1 of Conty Estevez and Kulla 2017.
+/// l's coefficients as KHR_materials_sheen prints them, each mix(at alpha_g 1, at alpha_g 0) of a mixture by (1 - alpha_g)^2. Table 1 of
+/// Conty Estevez and Kulla 2017.
+template <class Real, class Mix>
+LambdaCurve<Real> mixed_charlie_coefficients(const Mix& mix) {
+  return {mix(21.5473, 25.3245), mix(3.82987, 3.32435), mix(0.19823, 0.16801), mix(-1.97760, -1.27393), mix(-4.32054, -4.85967)};
+}
+
 template <class Real>
 LambdaCurve<Real> charlie_lambda_curve(Real alpha_g) {
   const Real t = (Real(1) - alpha_g) * (Real(1) - alpha_g);
-  const auto mix = [&t](double x, double y) { return Real(x) * (Real(1) - t) + Real(y) * t; };
-  return {mix(21.5473, 25.3245), mix(3.82987, 3.32435), mix(0.19823, 0.16801), mix(-1.97760, -1.27393), mix(-4.32054, -4.85967)};
+  return mixed_charlie_coefficients<Real>([&t](double x, double y) { return Real(x) * (Real(1) - t) + Real(y) * t; });
 }
 
 /// l's coefficients of "refined Charlie", Enterprise PBR Shading Model 2022x, sheen: w p1 + (1-w) p0 with

@@ -1,13 +1,11 @@
 #include "renderer/features.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cstdio>
 #include <stdexcept>
 
 #include "renderer/feature_words.h"
 #include "renderer/picture_texture.h"
+#include "renderer/shading.h"
 #include "renderer/texture_slots.h"
 
 namespace sheen::renderer {
@@ -63,15 +61,9 @@ class Planner {
   void uniform(const std::string& name) { plan_.uniforms.push_back(name); }
 
   void constants() {
-    const bool mediump = settings_.precision == Precision::Mediump;
-    std::array<char, 32> floor{};
-    std::snprintf(floor.data(), floor.size(), "%.9e", albedo::min_n_dot_v);
-    define(std::string("MIN_N_DOT_V=") + floor.data());
-    // The largest and the smallest normal value of a half float, or values just inside a float's range.
-    define(mediump ? "LARGEST_SHADING_VALUE=65504.0" : "LARGEST_SHADING_VALUE=1.0e38");
-    define(mediump ? "SMALLEST_SHADING_VALUE=6.2e-5" : "SMALLEST_SHADING_VALUE=1.0e-37");
-    if (lit_) {
-      define(settings_.formulation == Formulation::Literal ? "FORMULATION_LITERAL" : "FORMULATION_STABLE");
+    plan_.defines = shading_limits(settings_.precision);
+    if (plan_.normals) {
+      define(formulation_define(settings_.formulation));
     }
   }
 
@@ -269,8 +261,7 @@ class Planner {
     define("SHEEN");
     define("VISIBILITY_" + upper(visibility));
     if (settings_.formulation == Formulation::Stable) {
-      // alpha_g = 9e-10: the lobe is a line thinner than any pixel, and 1 / alpha_g is still far inside a float's range.
-      define("SMALLEST_SHEEN_ROUGHNESS=3.0e-5");
+      define(smallest_sheen_roughness_define);
     }
     uniform("u_sheen_color_factor");
     if (draft()) {
@@ -299,65 +290,60 @@ class Planner {
   }
 
   void files() {
-    const auto add = [&](const std::string& name, bool shading) { plan_.fragment_files.push_back({name, shading}); };
-    add("common.glsl", false);
+    const auto add = [&](const std::string& name) { plan_.fragment_files.push_back(shader_file(name)); };
+    add("common.glsl");
     if (!plan_.textures.empty() || plan_.environment_image) {
-      add("textures.glsl", false);
+      add("textures.glsl");
     }
-    add("material.glsl", false);
+    add("material.glsl");
     if (plan_.normals) {
-      add("shading_frame.glsl", false);
+      add("shading_frame.glsl");
+      add("layer_view.glsl");
     }
     if (punctual_) {
-      add("lights.glsl", false);
+      add("lights.glsl");
     }
     if (plan_.normals) {
-      add("fresnel.glsl", true);
+      add("fresnel.glsl");
     }
     if (lit_) {
       if (physical_) {
-        add("ggx_albedo.glsl", false);
+        add("ggx_albedo.glsl");
       }
-      add("specular_ggx.glsl", true);
-      add(physical_ ? "base_physical.glsl" : "base.glsl", true);
+      add("specular_ggx.glsl");
+      add(physical_ ? "base_physical.glsl" : "base.glsl");
     }
     if (sheen_) {
-      const albedo::Visibility visibility = sheen_model_.visibility;
-      const std::string file = "sheen_visibility_" + std::string(visibility_name(visibility)) + ".glsl";
-      add("sheen_distribution.glsl", true);
-      if (visibility == albedo::Visibility::Ashikhmin) {
-        add(file, true);
-      } else {
-        add("sheen_coefficients.glsl", true);
-        add(file, true);
-        add("sheen_lambda.glsl", true);
+      add("sheen_distribution.glsl");
+      for (const std::string& file : sheen_visibility_files(sheen_model_.visibility)) {
+        add(file);
       }
-      add("sheen.glsl", true);
+      add("sheen.glsl");
       if (draft()) {
-        add("sheen_draft_2019.glsl", true);
+        add("sheen_draft_2019.glsl");
       }
       if (sheen_model_.scaling != albedo::AlbedoScaling::None || settings_.prefiltered()) {
-        add(plan_.sheen_albedo_table ? "sheen_albedo.glsl" : "sheen_albedo_fit.glsl", false);
+        add(plan_.sheen_albedo_table ? "sheen_albedo.glsl" : "sheen_albedo_fit.glsl");
       }
       if (sheen_model_.scaling != albedo::AlbedoScaling::None) {
-        add("albedo_scaling.glsl", false);
+        add("albedo_scaling.glsl");
       }
     }
     if (clearcoat_) {
-      add("clearcoat.glsl", true);
+      add("clearcoat.glsl");
     }
     if (lit_) {
-      add("layers.glsl", false);
+      add("layers.glsl");
     }
     if (settings_.environment != nullptr) {
       if (plan_.environment_image) {
-        add("equirect.glsl", false);
+        add("equirect.glsl");
       }
-      add("environment.glsl", false);
-      add("environment_mirror.glsl", false);
-      add(settings_.prefiltered() ? "environment_prefiltered.glsl" : "environment_sampled.glsl", false);
+      add("environment.glsl");
+      add("environment_mirror.glsl");
+      add(settings_.prefiltered() ? "environment_prefiltered.glsl" : "environment_sampled.glsl");
     }
-    add("main.frag", false);
+    add("main.frag");
   }
 
   /// Features in the order of feature_names(), each once.

@@ -1,6 +1,7 @@
 #include "renderer/prefilter.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "renderer/environment_points.h"
 #include "renderer/picture_texture.h"
 #include "renderer/program.h"
+#include "renderer/shading.h"
 #include "renderer/target.h"
 #include "renderer/textures.h"
 
@@ -22,20 +24,25 @@ constexpr double narrow_roughness = 0.3;
 constexpr int summed_width = 128;
 constexpr int levels = 8;
 
+std::optional<albedo::Visibility> visibility_of(Kernel kernel) {
+  switch (kernel) {
+    case Kernel::SheenCharlie:
+      return albedo::Visibility::Charlie;
+    case Kernel::SheenAshikhmin:
+      return albedo::Visibility::Ashikhmin;
+    case Kernel::SheenRefined:
+      return albedo::Visibility::Refined;
+    default:
+      return std::nullopt;
+  }
+}
+
 std::vector<ShaderFile> files(Kernel kernel) {
   std::vector<ShaderFile> list{{"common.glsl"}, {"textures.glsl"}, {"equirect.glsl"}};
-  switch (kernel) {
-    case Kernel::Diffuse:
-    case Kernel::Ggx:
-      break;
-    case Kernel::SheenAshikhmin:
-      list.push_back({"sheen_visibility_ashikhmin.glsl"});
-      break;
-    case Kernel::SheenCharlie:
-    case Kernel::SheenRefined:
-      list.push_back({"sheen_coefficients.glsl"});
-      list.push_back({kernel == Kernel::SheenCharlie ? "sheen_visibility_charlie.glsl" : "sheen_visibility_refined.glsl"});
-      list.push_back({"sheen_lambda.glsl"});
+  if (const auto visibility = visibility_of(kernel)) {
+    for (const std::string& file : sheen_visibility_files(*visibility)) {
+      list.push_back({file});
+    }
   }
   list.push_back({"prefilter.frag"});
   return list;

@@ -2,7 +2,7 @@
 // Usage: sheen-cts-fake-viewer PLAN.json with
 //   {"log": FILE,              appends a line each time it starts
 //    "hello": {...},           the first line; or a string, printed as it is; or null for silence
-//    "answers": {SUBSTRING: HOW}}   by a piece of the request's scene; "*" for all others
+//    "answers": {SUBSTRING: HOW}}   by a piece of the request's scene, or of the file of a function's arguments; "*" for all others
 // HOW: {"image": FILE}, copied to the request's output; or one of "crash", "exit", "hang", "garbage", "close", "wrong_id", "unsupported",
 // "failed", "no_file", "wrong_status", "endless".
 #include <csignal>
@@ -18,9 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-json choose(const json& answers, const std::string& scene) {
+json choose(const json& answers, const std::string& asked) {
   for (const auto& [piece, how] : answers.items()) {
-    if (piece != "*" && scene.find(piece) != std::string::npos) {
+    if (piece != "*" && asked.find(piece) != std::string::npos) {
       return how;
     }
   }
@@ -102,7 +102,8 @@ int main(int argc, char** argv) {
   std::string line;
   while (std::getline(std::cin, line)) {
     const json request = json::parse(line);
-    answer(request, choose(plan.value("answers", json::object()), request.at("scene").get<std::string>()));
+    const std::string asked = request.at(request.contains("function") ? "arguments" : "scene").get<std::string>();
+    answer(request, choose(plan.value("answers", json::object()), asked));
   }
   return 0;
 }
