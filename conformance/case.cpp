@@ -17,6 +17,9 @@ constexpr std::array<std::pair<AlbedoScaling, const char*>, 4> scalings = {
 constexpr std::array<std::pair<Model, const char*>, 3> models = {
     {{Model::Ratified, "ratified"}, {Model::Draft2019, "draft-2019"}, {Model::Physical, "physical"}}};
 
+constexpr std::array<std::pair<golden::Precision, const char*>, 2> precisions = {
+    {{golden::Precision::Highp, "highp"}, {golden::Precision::Mediump, "mediump"}}};
+
 template <class Table, class Value>
 std::string word_of(const Table& table, Value value) {
   for (const auto& [candidate, word] : table) {
@@ -44,6 +47,9 @@ auto value_of(const Table& table, const std::string& word, const char* what) {
 std::string to_string(Visibility visibility) {
   return word_of(visibilities, visibility);
 }
+std::string to_string(golden::Precision precision) {
+  return word_of(precisions, precision);
+}
 std::string to_string(AlbedoScaling scaling) {
   return word_of(scalings, scaling);
 }
@@ -55,6 +61,9 @@ Visibility parse_visibility(const std::string& word) {
 }
 AlbedoScaling parse_albedo_scaling(const std::string& word) {
   return value_of(scalings, word, "albedo scaling");
+}
+golden::Precision parse_golden_precision(const std::string& word) {
+  return value_of(precisions, word, "precision");
 }
 Model parse_model(const std::string& word) {
   return value_of(models, word, "model");

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "albedo/sheen_model.h"
+#include "golden/golden.h"
 
 namespace sheen::conformance {
 
@@ -25,11 +27,15 @@ struct Case {
   int width = 128;
   int height = 128;
   std::string environment;  ///< what lights it from everywhere, a name of environments.h; empty: nothing
+  std::optional<golden::Precision> precision;  ///< of the lobes' arithmetic, asked for and judged by; none: what the run says
+  bool refused = false;     ///< whether the scene breaks a rule, so that it must not be drawn
   std::string law;          ///< what the case holds a viewer to, in a sentence, with its source; may be empty
 };
 
-/// The model's words, as on the command line: "charlie", "ashikhmin", "refined".
+/// The words of the command line: "charlie", "ashikhmin", "refined".
 std::string to_string(albedo::Visibility visibility);
+/// "highp", "mediump".
+std::string to_string(golden::Precision precision);
 /// "full", "view", "none", "literal".
 std::string to_string(albedo::AlbedoScaling scaling);
 /// "ratified", "draft-2019", "physical".
@@ -38,5 +44,6 @@ std::string to_string(albedo::Model model);
 albedo::Visibility parse_visibility(const std::string& word);
 albedo::AlbedoScaling parse_albedo_scaling(const std::string& word);
 albedo::Model parse_model(const std::string& word);
+golden::Precision parse_golden_precision(const std::string& word);
 
 }  // namespace sheen::conformance

@@ -168,8 +168,9 @@ void check_description(const json& description, const std::string& file, const s
   const Place place{file, element};
   check_keys(
       description,
-      {"shape", "node", "vertex_colors", "mirrored_texcoords", "material", "lights", "environment", "law", "camera", "model", "size"}, file,
-      element);
+      {"shape", "node", "vertex_colors", "mirrored_texcoords", "material", "lights", "environment", "law", "camera", "model", "size",
+       "precision", "refused"},
+      file, element);
   for (const char* key : {"shape", "material", "lights", "camera", "size"}) {
     require(description, key, place);
   }
@@ -179,7 +180,7 @@ void check_description(const json& description, const std::string& file, const s
   if (description.contains("node")) {
     check_node(description["node"], place.inside("node"));
   }
-  for (const char* flag : {"vertex_colors", "mirrored_texcoords"}) {
+  for (const char* flag : {"vertex_colors", "mirrored_texcoords", "refused"}) {
     if (description.contains(flag) && !description[flag].is_boolean()) {
       place.inside(flag).fail("must be true or false");
     }
@@ -202,6 +203,9 @@ void check_description(const json& description, const std::string& file, const s
   check_size(description["size"], place.inside("size"));
   const json model = description.value("model", json::object());
   check_keys(model, {"visibility", "albedo_scaling"}, file, element + ".model");
+  if (description.contains("precision") && description["precision"] != "highp" && description["precision"] != "mediump") {
+    place.inside("precision").fail("must be \"highp\" or \"mediump\"");
+  }
   try {
     parse_visibility(model.value("visibility", "charlie"));
     parse_albedo_scaling(model.value("albedo_scaling", "full"));

@@ -22,7 +22,8 @@ using nlohmann::json;
 std::string cache_name(const std::string& hash, const golden::Settings& settings) {
   std::string text = settings_text(settings);
   std::replace(text.begin(), text.end(), ' ', '-');
-  return std::string("v") + golden::formula_version + "-" + hash + "-" + text + "-s" + std::to_string(settings.subpixel_bits) + ".exr";
+  return std::string("v") + golden::formula_version + "-" + hash + "-" + text + "-s" + std::to_string(settings.subpixel_bits) + "-" +
+         to_string(settings.precision) + ".exr";
 }
 
 /// Whether a picture from the cache is what its name says.
@@ -73,6 +74,7 @@ golden::Settings golden_settings(const Case& one, const albedo::SheenModel& mode
   settings.view.camera = 0;
   settings.sheen = model;
   settings.subpixel_bits = subpixel_bits;
+  settings.precision = one.precision.value_or(golden::Precision::Highp);
   if (!one.environment.empty()) {
     settings.environment = &kept_environment(one.environment);
     settings.sampling.error = golden_error;

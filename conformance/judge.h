@@ -56,7 +56,7 @@ struct CaseResult {
   std::shared_ptr<const FunctionFindings> findings;  ///< of a function, in the place of pictures
 };
 
-/// Writes the scene, reads it back, computes the golden. Never throws: what goes wrong is the case's `problem`. Safe to call from many
+/// Writes the scene, reads it back, computes the golden; of a case that is to be refused, writes it alone. Never throws: what goes wrong is the case's `problem`. Safe to call from many
 /// threads.
 PreparedCase prepare_case(const Case& one, const GoldenStore& store, const std::filesystem::path& scenes, int subpixel_bits);
 

@@ -26,6 +26,7 @@ json case_json(const CaseResult& one) {
   made["compared_pixels"] = figure(&Verdict::compared_pixels);
   made["excluded_pixels"] = figure(&Verdict::excluded_pixels);
   made["vague_pixels"] = figure(&Verdict::vague_pixels);
+  made["negative_pixels"] = figure(&Verdict::negative_pixels);
   made["nonfinite_pixels"] = figure(&Verdict::nonfinite_pixels);
   if (one.findings) {
     const FunctionCase& tested = one.findings->tested;

@@ -123,7 +123,11 @@ class Session {
         viewer_(std::move(command), {options.start_limit_seconds, options.case_limit_seconds}),
         hello_(viewer_.hello()),
         store_(cache_ / "goldens", options.goldens.empty() ? find_goldens() : options.goldens, suite_.name),
-        prefetcher_([this](std::size_t i) { return prepare_case(suite_.cases[i], store_, cache_ / "scenes", hello_.subpixel_bits); }) {}
+        prefetcher_([this](std::size_t i) { return prepare_case(suite_.cases[i], store_, cache_ / "scenes", hello_.subpixel_bits); }) {
+    for (Case& one : suite_.cases) {
+      one.precision = one.precision.value_or(parse_golden_precision(options.precision));
+    }
+  }
 
   const Suite& suite() const { return suite_; }
   const Hello& hello() const { return hello_; }
@@ -168,7 +172,8 @@ class Session {
   Answer draw(const Case& one, const fs::path& scene_file, const std::string& kind, int environment_samples) {
     const fs::path output = images_ / (one.name + kind + (hello_.encoding == Encoding::Srgb8 ? ".png" : ".exr"));
     const fs::path environment = one.environment.empty() ? fs::path() : write_environment(one.environment, cache_ / "environments");
-    return viewer_.draw({scene_file, 0, one.width, one.height, output, one.model, environment, environment_samples});
+    const std::string precision = one.precision ? to_string(*one.precision) : "";
+    return viewer_.draw({scene_file, 0, one.width, one.height, output, one.model, precision, environment, environment_samples});
   }
   CaseResult hold_to_golden(std::size_t index) {
     const Case& one = suite_.cases[index];

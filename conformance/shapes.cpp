@@ -1,5 +1,7 @@
 #include "conformance/shapes.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -118,28 +120,60 @@ SurfacePoint square_point(double s, double t) {
   return {{2 * s - 1, 1 - 2 * t, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}};
 }
 
+/// A flat patch of triangles that are 1 long and 1/500 high, under normals that swing by 60 degrees: a pixel meets several of them.
+Shape slivers() {
+  return tessellate(2, 1000, {1.0, 1.0}, [](double s, double t) {
+    const double swing = pi / 6 * std::sin(4 * pi * t);
+    return SurfacePoint{{2 * s - 1, 1 - 2 * t, 0}, {std::sin(swing), 0, std::cos(swing)}, {std::cos(swing), 0, -std::sin(swing)}};
+  });
+}
+
+/// A square in columns, each with normals that no file should have but some do: of length 0, of 1e-6 and of 1000, and across each of the
+/// outer two from one side of the surface nearly to the other.
+Shape broken_normals() {
+  Shape shape = tessellate(16, 16, {1.0, 1.0}, square_point);
+  constexpr std::size_t across = 17;
+  for (std::size_t i = 0; i < shape.normals.size(); ++i) {
+    const std::size_t column = i % across;
+    const float length = column < 4 ? 1.0F : column < 8 ? 0.0F : column < 12 ? 1e-6F : 1000.0F;
+    const float lean = column == 1 ? 0.99F : column == 15 ? -0.99F : 0.0F;
+    shape.normals[i] = {length * lean, 0.0F, length * std::sqrt(1.0F - lean * lean)};
+  }
+  return shape;
+}
+
+struct NamedShape {
+  const char* name;
+  Shape (*make)();
+};
+constexpr std::array<NamedShape, 6> all_shapes = {{
+    {"sphere", [] { return tessellate(96, 48, {2.0, 1.0}, sphere_point); }},
+    {"cloth", [] { return tessellate(64, 64, {1.0, 1.0}, cloth_point); }},
+    {"ring", [] { return tessellate(96, 40, {4.0, 1.0}, ring_point); }},
+    {"square", [] { return tessellate(1, 1, {1.0, 1.0}, square_point); }},
+    {"slivers", slivers},
+    {"broken_normals", broken_normals},
+}};
+
 }  // namespace
 
 bool is_shape(const std::string& name) {
-  return name == "sphere" || name == "cloth" || name == "ring" || name == "square";
+  return std::any_of(all_shapes.begin(), all_shapes.end(), [&](const NamedShape& shape) { return name == shape.name; });
 }
 
 std::string shape_names() {
-  return "sphere, cloth, ring, square";
+  std::string names;
+  for (const NamedShape& shape : all_shapes) {
+    names += (names.empty() ? "" : ", ") + std::string(shape.name);
+  }
+  return names;
 }
 
 Shape make_shape(const std::string& name) {
-  if (name == "sphere") {
-    return tessellate(96, 48, {2.0, 1.0}, sphere_point);
-  }
-  if (name == "cloth") {
-    return tessellate(64, 64, {1.0, 1.0}, cloth_point);
-  }
-  if (name == "ring") {
-    return tessellate(96, 40, {4.0, 1.0}, ring_point);
-  }
-  if (name == "square") {
-    return tessellate(1, 1, {1.0, 1.0}, square_point);
+  for (const NamedShape& shape : all_shapes) {
+    if (name == shape.name) {
+      return shape.make();
+    }
   }
   throw std::invalid_argument("unknown shape '" + name + "'; known: " + shape_names());
 }

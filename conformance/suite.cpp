@@ -123,6 +123,10 @@ Case make_case(SweepPoint point, const std::string& file, const std::string& ele
   made.height = point.description["size"][1].get<int>();
   made.environment = point.description.value("environment", "");
   made.law = point.description.value("law", "");
+  made.refused = point.description.value("refused", false);
+  if (point.description.contains("precision")) {
+    made.precision = parse_golden_precision(point.description["precision"].get<std::string>());
+  }
   made.description = std::move(point.description);
   return made;
 }

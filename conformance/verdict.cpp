@@ -13,6 +13,8 @@
 namespace sheen::conformance {
 namespace {
 
+/// Index of Verdict::excluded_by.
+constexpr std::size_t unpromised_pixels = 4;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Channel indices, found once.
@@ -74,6 +76,14 @@ class Judge {
   bool finite(int x, int y) const {
     return std::all_of(channels_.candidate.begin(), channels_.candidate.end(),
                        [&](int c) { return c < 0 || std::isfinite(candidate_.at(x, y, c)); });
+  }
+  bool negative(int x, int y) const {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (candidate_.at(x, y, channels_.candidate.at(c)) < 0 && golden_.at(x, y, channels_.golden.at(c)) >= 0) {
+        return true;
+      }
+    }
+    return false;
   }
   std::size_t exclusion(int x, int y) const {
     return static_cast<std::size_t>(std::clamp(golden_.at(x, y, channels_.excluded), 0.0F, 4.0F));
@@ -161,6 +171,9 @@ void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
       if (!finite) {
         ++verdict.nonfinite_pixels;
       }
+      if (judge.negative(x, y)) {
+        ++verdict.negative_pixels;
+      }
       if (!judge.covered(x, y)) {
         continue;
       }
@@ -216,9 +229,13 @@ std::string too_many_excluded(const Verdict& verdict, std::int64_t covered) {
 
 void decide(const VerdictRules& rules, Verdict& verdict) {
   const std::int64_t covered = verdict.compared_pixels + verdict.excluded_pixels + verdict.mirrored_pixels;
+  const std::int64_t unpromised = rules.leave_out_unpromised ? verdict.excluded_by[unpromised_pixels] : 0;
   if (verdict.nonfinite_pixels > 0) {
     verdict.status = Status::Fail;
     verdict.message = std::to_string(verdict.nonfinite_pixels) + " pixels are NaN or Inf";
+  } else if (verdict.negative_pixels > 0) {
+    verdict.status = Status::Fail;
+    verdict.message = std::to_string(verdict.negative_pixels) + " pixels are negative where the golden is not";
   } else if (!(verdict.bound_ratio <= 1)) {
     verdict.status = Status::Fail;
     verdict.message = "the pixel at " + std::to_string(verdict.worst_x) + ", " + std::to_string(verdict.worst_y) + " is off by " +
@@ -226,15 +243,19 @@ void decide(const VerdictRules& rules, Verdict& verdict) {
                       " its bound";
   } else if (covered == 0) {
     verdict.message = "neither image covers a pixel";
-  } else if (verdict.compared_pixels == 0) {
+  } else if (verdict.compared_pixels == 0 && verdict.excluded_pixels > unpromised) {
     verdict.message = "every covered pixel is left out of the comparison: " + too_many_excluded(verdict, covered);
-  } else if (static_cast<double>(verdict.excluded_pixels) > rules.most_excluded * static_cast<double>(covered)) {
+  } else if (static_cast<double>(verdict.excluded_pixels - unpromised) > rules.most_excluded * static_cast<double>(covered)) {
     verdict.message = too_many_excluded(verdict, covered);
   } else if (static_cast<double>(verdict.vague_pixels) > rules.most_vague * static_cast<double>(verdict.compared_pixels)) {
     verdict.message = "at " + std::to_string(verdict.vague_pixels) + " of " + std::to_string(verdict.compared_pixels) +
                       " compared pixels the bound would let black pass: this scene leaves too much to the driver to judge by it";
   } else {
     verdict.status = Status::Pass;
+    if (unpromised > 0) {
+      verdict.message = "of " + percent(static_cast<double>(unpromised) / static_cast<double>(covered)) +
+                        " of the covered pixels the rules of GLSL ES promise no more than that they be finite and not negative";
+    }
   }
 }
 

@@ -33,6 +33,7 @@ struct Verdict {
   /// above a tenth of what the picture's pixels have on average.
   std::int64_t vague_pixels = 0;
   std::int64_t mirrored_pixels = 0;   ///< covered, and left out since the normal faces away (foreign viewers alone)
+  std::int64_t negative_pixels = 0;   ///< compared or not, with a channel below 0 where the golden has none
   std::int64_t nonfinite_pixels = 0;  ///< NaN or Inf in the candidate, anywhere in the image
   std::string message;                ///< why it is not a pass
 };
@@ -54,6 +55,9 @@ struct VerdictRules {
   double environment_tolerance = 0;
   /// A golden with more than this share of its covered pixels excluded judges nothing.
   double most_excluded = 0.02;
+  /// Whether pixels for which the rules promise nothing (excluded for reason 4) are left out however many they are. They still must be
+  /// finite and not negative.
+  bool leave_out_unpromised = false;
   /// A golden with more than this share of its compared pixels vague judges nothing either.
   double most_vague = 0.2;
 };

@@ -146,6 +146,9 @@ Answer Viewer::draw(const Request& request) {
                {"height", request.height},
                {"output", request.output.string()},
                {"settings", {{"visibility", to_string(request.model.visibility)}, {"albedo_scaling", to_string(request.model.scaling)}}}};
+  if (!request.precision.empty()) {
+    line["settings"]["precision"] = request.precision;
+  }
   if (!request.environment.empty()) {
     line["settings"]["environment_samples"] = request.environment_samples;
   }

@@ -46,6 +46,7 @@ struct Request {
   int height = 0;
   std::filesystem::path output;
   albedo::SheenModel model;
+  std::string precision{};              ///< "highp", "mediump"; empty: the viewer's own
   std::filesystem::path environment{};  ///< an equirect; empty: none
   int environment_samples = 0;          ///< for a viewer that takes settings
 };

@@ -4,6 +4,16 @@
 
 namespace sheen::brdf {
 
+/// charlie_distribution() of the squares of cosine and sine.
+template <class Real>
+Real charlie_distribution_of_squares(Real alpha_g, Real cos2, Real sin2_theta_h) {
+  const Real p = Real(0.5) / alpha_g;
+  // log1p keeps the digits of a small cosine that "1 - cos2" loses and that a large exponent would magnify.
+  const Real log_sin2 = select(cos2 < Real(0.25), log1p(-min(cos2, Real(0.25))), log(sin2_theta_h));
+  const Real d = (Real(1) + p) * exp(p * log_sin2) * Real(1 / pi);
+  return select(alpha_g > Real(0), d, Real(0));
+}
+
 /// The "Charlie" distribution D of the sheen lobe, in 1/sr: an exponentiated sinusoid, Conty Estevez and Kulla 2017, equation 2
 /// (KHR_materials_sheen, "Sheen distribution"): (2 + 1/alpha_g) sin(theta_h)^(1/alpha_g) / (2 pi).
 /// For alpha_g = 0 it returns the limit for N.H > 0, which is 0 (the printed code divides by zero there).
@@ -12,12 +22,8 @@ namespace sheen::brdf {
 /// @param sin2_theta_h  its squared sine, |N x H|^2, [0, 1]; given apart because 1 - n_dot_h^2 cancels near N.H = 1
 template <class Real>
 Real charlie_distribution(Real alpha_g, Real n_dot_h, Real sin2_theta_h) {
-  const Real p = Real(0.5) / alpha_g;
   const Real cos2 = n_dot_h * n_dot_h;
-  // log1p keeps the digits of a small cosine that "1 - cos2" loses and that a large exponent would magnify.
-  const Real log_sin2 = select(cos2 < Real(0.25), log1p(-min(cos2, Real(0.25))), log(sin2_theta_h));
-  const Real d = (Real(1) + p) * exp(p * log_sin2) * Real(1 / pi);
-  return select(alpha_g > Real(0), d, Real(0));
+  return charlie_distribution_of_squares(alpha_g, cos2, sin2_theta_h);
 }
 
 /// The curve l(x) of the shadowing term Lambda, with its five coefficients at one alpha_g, so that they are found once a material:

@@ -26,6 +26,15 @@ inline long double select(bool condition, long double a, long double b) {
   return condition ? a : b;
 }
 
+/// The number type in which a formula takes exponents and logarithms that a shader of low precision keeps in high precision; its own, unless
+/// specialised, and the ways there and back.
+template <class Real>
+struct Exponents {
+  using Type = Real;
+  static const Real& widened(const Real& x) { return x; }
+  static const Real& narrowed(const Type& x) { return x; }
+};
+
 /// Whether a condition may hold: in any lane of a batch, for anything that an uncertain value may be.
 inline bool any(bool condition) {
   return condition;

@@ -15,15 +15,21 @@ class SheenLobe {
   /// @param sheen_roughness  the user's parameter, [0, 1]; alpha_g is its square
   /// @param n_dot_v          (0, 1]
   SheenLobe(Visibility visibility, Real sheen_roughness, Real n_dot_v)
-      : visibility_(visibility), alpha_g_(sheen_roughness * sheen_roughness), n_dot_v_(n_dot_v), lambda_v_(Real(0)) {
+      : visibility_(visibility),
+        alpha_g_(Wide::widened(sheen_roughness) * Wide::widened(sheen_roughness)),
+        n_dot_v_(n_dot_v),
+        lambda_v_(Real(0)) {
     if (visibility_ != Visibility::Ashikhmin) {
-      curve_ = visibility_ == Visibility::Charlie ? charlie_lambda_curve(alpha_g_) : refined_lambda_curve(alpha_g_);
+      const Real alpha_g = sheen_roughness * sheen_roughness;
+      curve_ = visibility_ == Visibility::Charlie ? charlie_lambda_curve(alpha_g) : refined_lambda_curve(alpha_g);
       lambda_v_ = curve_.lambda(n_dot_v);
     }
   }
 
   /// D, in 1/sr; see charlie_distribution.
-  Real distribution(Real n_dot_h, Real sin2_theta_h) const { return charlie_distribution(alpha_g_, n_dot_h, sin2_theta_h); }
+  Real distribution(Real n_dot_h, Real sin2_theta_h) const {
+    return Wide::narrowed(charlie_distribution_of_squares(alpha_g_, Wide::widened(n_dot_h * n_dot_h), Wide::widened(sin2_theta_h)));
+  }
 
   /// V times N.L, in 1/sr. @param n_dot_l  [0, 1]
   Real visibility_times_n_dot_l(Real n_dot_l) const {
@@ -39,8 +45,10 @@ class SheenLobe {
   }
 
  private:
+  using Wide = Exponents<Real>;
+
   Visibility visibility_;
-  Real alpha_g_;
+  typename Wide::Type alpha_g_;
   Real n_dot_v_;
   LambdaCurve<Real> curve_{};
   Real lambda_v_;

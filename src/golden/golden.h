@@ -19,12 +19,16 @@ namespace sheen::golden {
 /// Changes with every change of a formula that can change a golden; part of the key of every cached or committed golden.
 inline constexpr const char* formula_version = "3";
 
+/// The precision that a shader's lobes and Fresnel terms have; all else is highp.
+enum class Precision { Highp, Mediump };
+
 struct Settings {
   scene::View view;
   albedo::SheenModel sheen;
   /// SUBPIXEL_BITS of the driver the golden is to judge: its grid may move a sample by 2^-bits pixel along each axis (OpenGL ES 3.0.6,
   /// section 6.2, table 6.29: at least 4).
   int subpixel_bits = 8;
+  Precision precision = Precision::Highp;  ///< of the shader the golden is to judge: its bounds
   const scene::Environment* environment = nullptr;  ///< light from everywhere, besides the scene's lights; must outlive its use
   SamplingGoal sampling;                            ///< of an environment that is an image
   bool bounds = true;                               ///< whether to compute the bound channels

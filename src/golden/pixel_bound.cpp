@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "golden/bounded_albedo.h"
+#include "golden/bounded_mediump.h"
 #include "golden/shade.h"
 #include "number/bounded_functions.h"
 
@@ -35,7 +36,11 @@ Enclosed PixelBound::of(const Seen& seen, const Ray& ray) const {
   const auto lay = [&](const Hit& hit) {
     const Placed& placed = frame_.geometry.placed(hit.triangle);
     const BoundedSurface read = reader_.read(hit, ray);
-    const brdf::Rgb<Bound> c = shade(read.surface, frame_.reader.layers(placed.material_index), lighting, NoListener{}).radiance;
+    const Layers layers = frame_.reader.layers(placed.material_index);
+    const brdf::Rgb<Bound> c = (frame_.settings.precision == Precision::Mediump
+                                    ? shade_with<number::Bounded<number::Mediump>>(read.surface, layers, lighting, NoListener{})
+                                    : shade(read.surface, layers, lighting, NoListener{}))
+                                   .radiance;
     if (placed.material->alpha_mode != scene::AlphaMode::Blend) {
       out = {c.r, c.g, c.b, Bound(1)};
       return;

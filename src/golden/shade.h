@@ -81,22 +81,46 @@ struct LobeView {
   }
 };
 
-/// The half vector's angles about a lobe's normal.
-template <class Real>
-struct HalfAngles {
-  Real n_dot_h, sin2_theta_h, v_dot_h;
+/// A number as the lobes' arithmetic has it, or back: the same, where that is the same.
+template <class To>
+struct As {
+  static const To& number(const To& x) { return x; }
+  template <class From>
+  static To number(const From& x) {
+    return converted_to(x, static_cast<const To*>(nullptr));
+  }
+  template <class From>
+  static brdf::Rgb<To> color(const brdf::Rgb<From>& c) {
+    return {number(c.r), number(c.g), number(c.b)};
+  }
+  template <class From>
+  static Vec3<To> vector(const Vec3<From>& v) {
+    return {number(v.x), number(v.y), number(v.z)};
+  }
+  template <class From>
+  static brdf::Base<To> base(const brdf::Base<From>& b) {
+    return {color(b.color), number(b.metallic), number(b.alpha), color(b.dielectric_f0), number(b.specular)};
+  }
+};
 
+/// The half vector's angles about a lobe's normal, as the lobes' arithmetic finds them of N, V and H.
+template <class Lobe>
+struct HalfAngles {
+  Lobe n_dot_h, sin2_theta_h, v_dot_h;
+
+  template <class Real>
   HalfAngles(const LobeView<Real>& lobe, const Vec3<Real>& l) {
     using brdf::inversesqrt;
     using brdf::max;
     using brdf::min;
     const Vec3<Real> sum = l + lobe.v;
     // L = -V has no half vector; there N.L <= 0, so any finite one serves.
-    const Vec3<Real> h = sum * inversesqrt(max(dot(sum, sum), Real(1e-30)));
-    const Vec3<Real> sine = cross(lobe.n, h);
-    n_dot_h = min(max(dot(lobe.n, h), Real(0)), Real(1));
-    sin2_theta_h = min(dot(sine, sine), Real(1));
-    v_dot_h = min(max(dot(lobe.v, h), Real(0)), Real(1));
+    const Vec3<Lobe> h = As<Lobe>::vector(sum * inversesqrt(max(dot(sum, sum), Real(1e-30))));
+    const Vec3<Lobe> n = As<Lobe>::vector(lobe.n);
+    const Vec3<Lobe> sine = cross(n, h);
+    n_dot_h = min(max(dot(n, h), Lobe(0)), Lobe(1));
+    sin2_theta_h = min(dot(sine, sine), Lobe(1));
+    v_dot_h = min(max(dot(As<Lobe>::vector(lobe.v), h), Lobe(0)), Lobe(1));
   }
 };
 
@@ -119,11 +143,11 @@ brdf::Rgb<Real> absolute(const brdf::Rgb<Real>& c) {
 }
 
 /// The sheen layer at one point: lobe, E and the scale it puts on what lies below (KHR_materials_sheen).
-template <class Real>
+template <class Real, class Lobe = Real>
 class SheenLayer {
  public:
   SheenLayer(const Surface<Real>& surface, const LobeView<Real>& lobe, const Lighting& lighting)
-      : lobe_(lighting.sheen.visibility, surface.sheen_roughness, lobe.n_dot_v),
+      : lobe_(lighting.sheen.visibility, As<Lobe>::number(surface.sheen_roughness), As<Lobe>::number(lobe.n_dot_v)),
         lighting_(lighting),
         roughness_(surface.sheen_roughness),
         n_dot_v_(lobe.n_dot_v),
@@ -131,7 +155,7 @@ class SheenLayer {
         e_v_(albedo_at(n_dot_v_)) {}
 
   const Real& e_v() const { return e_v_; }
-  const brdf::SheenLobe<Real>& lobe() const { return lobe_; }
+  const brdf::SheenLobe<Lobe>& lobe() const { return lobe_; }
 
   /// E(N.L); lanes without light cost nothing new.
   template <class Mask>
@@ -158,7 +182,7 @@ class SheenLayer {
  private:
   Real albedo_at(const Real& cosine) const { return AlbedoReader<Real>::sheen(lighting_.albedo, lighting_.curve, cosine, roughness_); }
 
-  brdf::SheenLobe<Real> lobe_;
+  brdf::SheenLobe<Lobe> lobe_;
   const Lighting& lighting_;
   Real roughness_, n_dot_v_;
   brdf::Rgb<Real> color_;
@@ -166,7 +190,8 @@ class SheenLayer {
 };
 
 /// One surface while its lights are gone through: what none of them changes, found once.
-template <class Real>
+/// @tparam Lobe  the arithmetic of lobes and Fresnel terms, that of all else being Real
+template <class Real, class Lobe>
 class Shading {
  public:
   using Color = brdf::Rgb<Real>;
@@ -177,13 +202,15 @@ class Shading {
         lighting_(lighting),
         lobe_(surface.normal, surface.view),
         coat_(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view),
-        k_(layers.clearcoat ? brdf::clearcoat_weight(surface.clearcoat, coat_.n_dot_v) * Real(lighting.factors.coat_weight) : Real(0)),
-        below_(Real(1) - k_) {
+        k_(layers.clearcoat ? coat_weight() : Real(0)),
+        below_(Real(1) - k_),
+        base_(As<Lobe>::base(surface.base)),
+        n_dot_v_(As<Lobe>::number(lobe_.n_dot_v)) {
     if (layers.sheen) {
       sheen_.emplace(surface, lobe_, lighting);
     }
     if (lighting.ggx != nullptr) {
-      physical_.emplace(physical_base(surface.base, lobe_.n_dot_v, *lighting.ggx));
+      physical_.emplace(physical_base(base_, n_dot_v_, *lighting.ggx));
     }
   }
 
@@ -223,17 +250,19 @@ class Shading {
     using brdf::select;
     const TermFactors& factors = lighting_.factors;
     const Real n_dot_l = min(max(part.n_dot_l, Real(0)), Real(1));
-    const HalfAngles<Real> half(lobe_, light.direction);
-    part.n_dot_h = half.n_dot_h;
+    const HalfAngles<Lobe> half(lobe_, light.direction);
+    part.n_dot_h = As<Real>::number(half.n_dot_h);
     const Color base = base_brdf(n_dot_l, half) * Real(factors.base);
     const Color irradiance = light.irradiance * below_;
     if (sheen_) {
       const Real e_l = sheen_->two_directions() || wants_e_l ? sheen_->e_l(lit, n_dot_l) : Real(0);
       part.e_l = select(lit, e_l, Real(0));
-      part.d = sheen_->lobe().distribution(half.n_dot_h, half.sin2_theta_h) * Real(factors.distribution);
-      part.v = sheen_->lobe().visibility_times_n_dot_l(n_dot_l) * Real(factors.visibility);
+      const Lobe d = sheen_->lobe().distribution(half.n_dot_h, half.sin2_theta_h) * Lobe(factors.distribution);
+      const Lobe v = sheen_->lobe().visibility_times_n_dot_l(As<Lobe>::number(n_dot_l)) * Lobe(factors.visibility);
+      part.d = As<Real>::number(d);
+      part.v = As<Real>::number(v);
       part.scale = sheen_->scale(e_l);
-      part.sheen = keep_where(lit, irradiance * surface_.sheen_color * (part.d * part.v));
+      part.sheen = keep_where(lit, irradiance * As<Real>::color(As<Lobe>::color(surface_.sheen_color) * (d * v)));
       if (finds_lookup_error<Real> && sheen_->two_directions()) {
         const Real missed = sheen_->single_lookup_scale(n_dot_l, e_l) - part.scale;
         lookup = lookup + keep_where(lit, absolute(irradiance * base * (missed * n_dot_l)));
@@ -242,12 +271,14 @@ class Shading {
     part.base = keep_where(lit, irradiance * base * (part.scale * n_dot_l));
   }
 
-  Color base_brdf(const Real& n_dot_l, const HalfAngles<Real>& half) const {
+  Color base_brdf(const Real& n_dot_l, const HalfAngles<Lobe>& half) const {
     if (physical_) {
-      const auto albedo = AlbedoReader<Real>::ggx(*lighting_.ggx, n_dot_l, surface_.base.alpha);
-      return physical_->brdf(albedo, n_dot_l, lobe_.n_dot_v, half.n_dot_h, half.sin2_theta_h, half.v_dot_h);
+      const auto albedo = AlbedoReader<Lobe>::ggx(*lighting_.ggx, As<Lobe>::number(n_dot_l), base_.alpha);
+      return As<Real>::color(
+          physical_->brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
     }
-    return brdf::base_brdf(surface_.base, n_dot_l, lobe_.n_dot_v, half.n_dot_h, half.sin2_theta_h, half.v_dot_h);
+    return As<Real>::color(
+        brdf::base_brdf(base_, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
   }
 
   template <class Mask>
@@ -255,10 +286,16 @@ class Shading {
     using brdf::max;
     using brdf::min;
     const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
-    const HalfAngles<Real> half(coat_, light.direction);
-    part.coat_lobe = brdf::clearcoat_lobe(surface_.coat_alpha, n_dot_l, coat_.n_dot_v, half.n_dot_h, half.sin2_theta_h) *
-                     Real(lighting_.factors.coat_lobe);
+    const HalfAngles<Lobe> half(coat_, light.direction);
+    const Lobe lobe = brdf::clearcoat_lobe(As<Lobe>::number(surface_.coat_alpha), As<Lobe>::number(n_dot_l),
+                                           As<Lobe>::number(coat_.n_dot_v), half.n_dot_h, half.sin2_theta_h);
+    part.coat_lobe = As<Real>::number(lobe) * Real(lighting_.factors.coat_lobe);
     part.coat = keep_where(lit, light.irradiance * (k_ * part.coat_lobe * n_dot_l));
+  }
+
+  Real coat_weight() const {
+    const Lobe k = brdf::clearcoat_weight(As<Lobe>::number(surface_.clearcoat), As<Lobe>::number(coat_.n_dot_v));
+    return As<Real>::number(k) * Real(lighting_.factors.coat_weight);
   }
 
   const Surface<Real>& surface_;
@@ -266,17 +303,19 @@ class Shading {
   const Lighting& lighting_;
   LobeView<Real> lobe_, coat_;
   Real k_, below_;  // the coat's weight, and what it leaves of all below it
-  std::optional<SheenLayer<Real>> sheen_;
-  std::optional<brdf::PhysicalBase<Real>> physical_;
+  brdf::Base<Lobe> base_;
+  Lobe n_dot_v_;
+  std::optional<SheenLayer<Real, Lobe>> sheen_;
+  std::optional<brdf::PhysicalBase<Lobe>> physical_;
 };
 
 /// Radiance toward the camera, in lux / sr:
 ///   L_o = sum over lights E [ (1-k) (f_sheen + s base) max(N.L,0) + k D_c Vis_c max(Nc.L,0) ] + (1-k) emission.
 /// Every term passes `listener`, so that what is reported and what is drawn come from one evaluation.
-template <class Real, class Listener>
-Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& lighting, Listener&& listener) {
+template <class Lobe, class Real, class Listener>
+Shaded<Real> shade_with(const Surface<Real>& surface, Layers layers, const Lighting& lighting, Listener&& listener) {
   constexpr bool wants_e_l = std::remove_cvref_t<Listener>::wants_e_l;
-  const Shading<Real> shading(surface, layers, lighting);
+  const Shading<Real, Lobe> shading(surface, layers, lighting);
   listener.view(shading.view());
   Shaded<Real> out{shading.emission(), {Real(0), Real(0), Real(0)}, shading.mirrored()};
   for (std::size_t i = 0; i < lighting.light_count; ++i) {
@@ -287,6 +326,12 @@ Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& 
     out.radiance = out.radiance + part.sheen + part.base + part.coat;
   }
   return out;
+}
+
+/// The same in one arithmetic.
+template <class Real, class Listener>
+Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& lighting, Listener&& listener) {
+  return shade_with<Real>(surface, layers, lighting, listener);
 }
 
 }  // namespace sheen::golden

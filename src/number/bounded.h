@@ -386,4 +386,10 @@ Bounded<To> converted(const Bounded<From>& x) {
                               true);
 }
 
+/// The same, to the type that the second argument points to; it is not looked at.
+template <class To, class From>
+Bounded<To> converted_to(const Bounded<From>& x, const Bounded<To>*) {
+  return converted<To>(x);
+}
+
 }  // namespace sheen::number
