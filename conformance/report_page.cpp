@@ -61,7 +61,7 @@ table.formulation { background: var(--paper); width: 100%; }
 table.formulation td, table.formulation th { padding: 5px 12px 5px 0; vertical-align: middle; }
 table.formulation th[colspan] { text-align: center; }
 table.formulation td:first-child { padding-left: 12px; }
-table.formulation img { width: 84px; height: 84px; }
+table.formulation img { width: 84px; height: 84px; margin: 0 auto; }
 table.formulation figcaption { font-size: 11px; }
 @media (max-width: 760px) { article { grid-template-columns: 1fr; } details { grid-column: 1; } }
 )css";
