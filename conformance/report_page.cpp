@@ -55,6 +55,8 @@ code { font: 12px ui-monospace, "DejaVu Sans Mono", monospace; overflow-wrap: an
 article.function { grid-template-columns: 1fr; }
 article.function .pictures { max-width: none; flex-wrap: nowrap; }
 article.function figure { flex: none; }
+article.function figure:has(svg) { flex: 1; min-width: 0; }
+article.function figure:has(svg) figcaption { text-align: left; padding-left: 40px; }
 article.function details { grid-column: 1; }
 .wide { overflow-x: auto; }
 table.formulation { background: var(--paper); width: 100%; }
