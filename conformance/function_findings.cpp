@@ -120,7 +120,8 @@ std::string draw_plots(const FunctionSamples& samples, const std::vector<SampleE
       "<svg class=plots viewBox=\"0 0 " + text_of("%.0f %.0f", width, height) + "\" style=\"max-width:" + text_of("%.0f", width) + "px\">";
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const double x = left_margin + panel_step * static_cast<double>(i % panels_a_row);
-    const double y = row_step * static_cast<double>(i / panels_a_row);
+    const std::size_t row = i / panels_a_row;
+    const double y = row_step * static_cast<double>(row);
     if (i % panels_a_row == 0) {
       svg += scale_svg(decades, samples.spec.is_operation ? "ulp" : "rel", y);
     }
