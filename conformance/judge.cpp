@@ -15,8 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using albedo::SheenModel;
 
-/// What 4,096 directions a pixel leave, over the suites' materials and environments.
-constexpr double environment_tolerance = 0.02;
 /// No text says how an environment is to be integrated. Further off than this is no approximation of it any more.
 constexpr double most_approximated = 0.5;
 
@@ -117,7 +115,11 @@ void judge_picture(const Case& one, const PreparedCase& prepared, const image::I
   VerdictRules rules;
   rules.golden_is_pxr24 = prepared.reference.pxr24;
   rules.candidate_is_srgb8 = hello.encoding == Encoding::Srgb8;
-  rules.leave_out_mirrored = hello.name != "sheen-cts";
+  if (hello.name != "sheen-cts") {
+    rules.leave_out_mirrored = true;
+    rules.relative_tolerance = foreign_relative_tolerance;
+    rules.absolute_tolerance = foreign_absolute_tolerance;
+  }
   if (!one.environment.empty()) {
     rules.environment_tolerance = environment_tolerance;
   }

@@ -1,22 +1,17 @@
 #include "conformance/report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "conformance/html.h"
 
 #include "conformance/report_function.h"
 
 namespace sheen::conformance {
 namespace {
 
-constexpr std::array<Status, 7> statuses = {Status::Fail,          Status::Crash,       Status::Timeout, Status::Invalid,
-                                            Status::Approximation, Status::Unsupported, Status::Pass};
-
 std::string number(double value, int digits = 3) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return text.data();
+  return html_number(value, digits);
 }
 
 std::string number(const glm::dvec3& v) {
@@ -35,7 +30,7 @@ std::string fact(const std::string& name, const std::string& value) {
 std::string header(const RunRecord& record) {
   const Hello& viewer = record.viewer;
   std::string html =
-      "<header><h1>sheen-cts: suite " + escape_html(record.suite) + "</h1><p>" + escape_html(record.description) + "</p><dl class=facts>";
+      "<h1>sheen-cts: suite " + escape_html(record.suite) + "</h1><p>" + escape_html(record.description) + "</p><dl class=facts>";
   html += fact("Viewer", viewer.name + " " + viewer.version) + fact("Command", record.viewer_command);
   html += fact("Driver", viewer.renderer) + fact("Context", viewer.context_version);
   html += fact("Sub-pixel bits", std::to_string(viewer.subpixel_bits));
@@ -49,15 +44,12 @@ std::string header(const RunRecord& record) {
       html += "<i style=\"flex:" + std::to_string(count(record, status)) + ";background:var(--" + word + ")\" title=\"" + word + "\"></i>";
     }
   }
-  html += "</div><nav><button data-status=all>all " + std::to_string(record.cases.size()) + "</button>";
+  std::vector<std::pair<std::string, std::size_t>> counts;
+  counts.reserve(statuses.size());
   for (const Status status : statuses) {
-    const std::string word = to_string(status);
-    if (count(record, status) > 0) {
-      html += "<button data-status=" + word + " style=\"color:var(--" + word + ")\">" + word + " " + std::to_string(count(record, status)) +
-              "</button>";
-    }
+    counts.emplace_back(to_string(status), count(record, status));
   }
-  return html + "<input type=search placeholder=\"words in the case's name\" aria-label=\"words in the case's name\"></nav></header>";
+  return html + "</div>" + html_filters(record.cases.size(), counts);
 }
 
 /// A picture with a ring around the worst pixel, if it has one.
@@ -98,34 +90,26 @@ std::string figures(const CaseResult& one) {
   return html + figure("seconds", number(one.seconds)) + "</div>";
 }
 
-std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
-  std::string html = "<tr>";
-  for (const std::string& cell : cells) {
-    html += std::string("<") + tag + ">" + cell + "</" + tag + ">";
-  }
-  return html + "</tr>";
-}
-
 std::string light_table(const golden::PixelTerms& terms) {
   std::string html =
-      "<table>" + row({"light", "N.L", "N.H", "D", "V N.L", "E(N.L)", "scale s", "coat D Vis", "sheen", "base", "coat"}, "th");
+      "<table>" + html_row({"light", "N.L", "N.H", "D", "V N.L", "E(N.L)", "scale s", "coat D Vis", "sheen", "base", "coat"}, "th");
   for (const golden::LightTerms& light : terms.lights) {
-    html += row({std::to_string(light.light), number(light.n_dot_l, 4), number(light.n_dot_h, 4), number(light.d, 4), number(light.v, 4),
-                 number(light.e_l, 4), number(light.scale, 4), number(light.coat_lobe, 4), number(light.sheen), number(light.base),
-                 number(light.coat)});
+    html += html_row({std::to_string(light.light), number(light.n_dot_l, 4), number(light.n_dot_h, 4), number(light.d, 4),
+                      number(light.v, 4), number(light.e_l, 4), number(light.scale, 4), number(light.coat_lobe, 4), number(light.sheen),
+                      number(light.base), number(light.coat)});
   }
   return html + "</table>";
 }
 
 std::string point_table(const golden::PixelTerms& terms) {
   std::string html = "<table>";
-  html += row({"golden radiance", number(terms.radiance)}) + row({"emission", number(terms.emission)});
-  html +=
-      row({"N.V", number(terms.n_dot_v, 5)}) + row({"E(N.V)", number(terms.e_v, 5)}) + row({"coat weight k", number(terms.coat_weight, 5)});
-  html += row({"base colour", number(terms.base_color)}) +
-          row({"metallic, roughness", number(terms.metallic, 4) + ", " + number(terms.roughness, 4)});
-  html += row({"sheen colour, roughness", number(terms.sheen_color) + ", " + number(terms.sheen_roughness, 4)});
-  html += row({"clearcoat, roughness", number(terms.clearcoat, 4) + ", " + number(terms.clearcoat_roughness, 4)});
+  html += html_row({"golden radiance", number(terms.radiance)}) + html_row({"emission", number(terms.emission)});
+  html += html_row({"N.V", number(terms.n_dot_v, 5)}) + html_row({"E(N.V)", number(terms.e_v, 5)}) +
+          html_row({"coat weight k", number(terms.coat_weight, 5)});
+  html += html_row({"base colour", number(terms.base_color)}) +
+          html_row({"metallic, roughness", number(terms.metallic, 4) + ", " + number(terms.roughness, 4)});
+  html += html_row({"sheen colour, roughness", number(terms.sheen_color) + ", " + number(terms.sheen_roughness, 4)});
+  html += html_row({"clearcoat, roughness", number(terms.clearcoat, 4) + ", " + number(terms.clearcoat_roughness, 4)});
   return html + "</table>";
 }
 
@@ -133,10 +117,10 @@ std::string fit_table(const Diagnosis& diagnosis) {
   if (diagnosis.fits.empty()) {
     return "";
   }
-  std::string html = "<table>" + row({"if this term were off", "by a factor of", "this relative error would be left"}, "th");
-  html += row({"none", "1", number(diagnosis.residual)});
+  std::string html = "<table>" + html_row({"if this term were off", "by a factor of", "this relative error would be left"}, "th");
+  html += html_row({"none", "1", number(diagnosis.residual)});
   for (const TermFit& fit : diagnosis.fits) {
-    html += row({fit.term, number(fit.factor, 5), number(fit.residual)});
+    html += html_row({fit.term, number(fit.factor, 5), number(fit.residual)});
   }
   return html + "</table>";
 }
@@ -233,18 +217,15 @@ std::string escape_html(const std::string& text) {
 }
 
 std::string report_html(const RunRecord& record) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport content=\"width=device-width\"><title>sheen-cts: " +
-      escape_html(record.suite) + "</title><style>" + report_style + "</style></head><body>\n" + header(record) + "<main>\n" +
-      formulation_table(record);
+  std::string cards = formulation_table(record);
   for (const Status status : statuses) {
     for (const CaseResult& one : record.cases) {
       if (one.status == status) {
-        html += card(one);
+        cards += card(one);
       }
     }
   }
-  return html + "</main><script>" + report_script + "</script></body></html>\n";
+  return html_page("sheen-cts: " + record.suite, "", header(record), cards);
 }
 
 }  // namespace sheen::conformance

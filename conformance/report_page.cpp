@@ -69,12 +69,12 @@ table.formulation figcaption { font-size: 11px; }
 )css";
 
 const char* const report_script = R"js(
-const cards = [...document.querySelectorAll('article')], buttons = [...document.querySelectorAll('nav button')], box = document.querySelector('nav input');
+const cards = [...document.querySelectorAll('[data-name]')], buttons = [...document.querySelectorAll('nav button')], box = document.querySelector('nav input');
 let status = 'all';
 function show() {
   const words = box.value.toLowerCase().split(/\s+/).filter(Boolean);
   for (const card of cards) {
-    card.hidden = !((status === 'all' || card.dataset.status === status) && words.every(word => card.dataset.name.includes(word)));
+    card.hidden = !((status === 'all' || card.dataset.status.split(' ').includes(status)) && words.every(word => card.dataset.name.includes(word)));
   }
   for (const button of buttons) button.setAttribute('aria-pressed', button.dataset.status === status);
 }

@@ -11,10 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-json text_or_null(const std::string& text) {
-  return text.empty() ? json(nullptr) : json(text);
-}
-
 json case_json(const CaseResult& one) {
   json made = {{"name", one.name},       {"status", to_string(one.status)}, {"identified", text_or_null(one.identified)},
                {"seconds", one.seconds}, {"message", one.message},          {"worst_pixel", nullptr}};
@@ -26,6 +22,7 @@ json case_json(const CaseResult& one) {
   made["max_rel"] = figure(&Verdict::max_rel);
   made["p99_rel"] = figure(&Verdict::p99_rel);
   made["bound_ratio"] = figure(&Verdict::bound_ratio);
+  made["median_bound"] = figure(&Verdict::median_bound);
   made["compared_pixels"] = figure(&Verdict::compared_pixels);
   made["excluded_pixels"] = figure(&Verdict::excluded_pixels);
   made["vague_pixels"] = figure(&Verdict::vague_pixels);
@@ -85,8 +82,7 @@ RunResult summarize(const RunRecord& record, bool may_be_empty) {
 
 std::string results_json(const RunRecord& record) {
   json summary = json::object();
-  for (const Status status :
-       {Status::Pass, Status::Approximation, Status::Fail, Status::Unsupported, Status::Crash, Status::Timeout, Status::Invalid}) {
+  for (const Status status : statuses) {
     summary[to_string(status)] = 0;
   }
   json cases = json::array();
@@ -100,7 +96,8 @@ std::string results_json(const RunRecord& record) {
                      {"context",
                       {{"renderer", text_or_null(viewer.renderer)},
                        {"version", text_or_null(viewer.context_version)},
-                       {"mediump_bits", viewer.mediump_bits ? json(*viewer.mediump_bits) : json(nullptr)}}},
+                       {"mediump_bits", viewer.mediump_bits ? json(*viewer.mediump_bits) : json(nullptr)},
+                       {"subpixel_bits", viewer.subpixel_bits}}},
                      {"summary", summary},
                      {"seconds", record.seconds},
                      {"cases", cases}};

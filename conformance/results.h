@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,10 @@
 #include "conformance/viewer.h"
 
 namespace sheen::conformance {
+
+/// Every status, the worst first.
+inline constexpr std::array<Status, 7> statuses = {Status::Fail,          Status::Crash,       Status::Timeout, Status::Invalid,
+                                                   Status::Approximation, Status::Unsupported, Status::Pass};
 
 /// Everything a run found, as the reports tell it.
 struct RunRecord {

@@ -97,16 +97,24 @@ class LastEnvironment {
 
 /// What answers requests: drawing scenes, evaluating functions.
 struct Server {
-  Server(gles::Context& context, renderer::Precision precision_)
-      : precision(precision_), renderer(context, default_cache() / "environments"), evaluator(context) {}
+  Server(gles::Context& context, renderer::Precision precision_, const ServeOptions& options_)
+      : precision(precision_), options(options_), renderer(context, default_cache() / "environments"), evaluator(context) {}
 
   image::Image draw(const json& request) {
     renderer::Settings settings = read_settings(request, precision);
     settings.environment = last.of(request);
-    return renderer.render(scene::load_gltf(request.at("scene").get<std::string>()), settings);
+    scene::Scene scene = scene::load_gltf(request.at("scene").get<std::string>());
+    if (options.alter) {
+      options.alter(scene, settings);
+    }
+    return renderer.render(scene, settings);
   }
   image::Image evaluate(const json& request) {
-    const renderer::Settings settings = read_settings(request, precision);
+    renderer::Settings settings = read_settings(request, precision);
+    if (options.alter) {
+      scene::Scene none;
+      options.alter(none, settings);
+    }
     const image::Image arguments = image::read(request.at("arguments").get<std::string>());
     image::Image result = evaluator.evaluate(request["function"].get<std::string>(), arguments, settings.view.height, settings);
     if (result.width != settings.view.width) {
@@ -116,6 +124,7 @@ struct Server {
   }
 
   renderer::Precision precision;
+  const ServeOptions& options;
   renderer::Renderer renderer;
   renderer::FunctionEvaluator evaluator;
   LastEnvironment last;
@@ -138,7 +147,7 @@ void serve(std::istream& in, std::ostream& out, const ServeOptions& options) {
   const gles::ContextKind kind = parse_context(options.context);
   const std::unique_ptr<gles::Context> context = gles::Context::create(kind);
   const gles::ContextInfo& info = context->info();
-  Server server(*context, precision);
+  Server server(*context, precision, options);
   const json hello = {
       {"viewer", "sheen-cts"},
       {"version", SHEEN_CTS_VERSION},

@@ -1,13 +1,24 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <string>
+
+namespace sheen::scene {
+struct Scene;
+}
+namespace sheen::renderer {
+struct Settings;
+}
 
 namespace sheen::conformance {
 
 struct ServeOptions {
   std::string context = "osmesa";   ///< "osmesa" or "egl"
   std::string precision = "highp";  ///< "highp" or "mediump": what a request that does not say gets
+  /// Called before each picture is drawn, with the scene as read and the settings as asked for: how a test makes a viewer that errs on
+  /// purpose. Empty: they stay as they are.
+  std::function<void(scene::Scene&, renderer::Settings&)> alter{};
 };
 
 /// Our renderer as a viewer (README, "Viewer protocol"): writes the hello line, then answers each request line until `in` ends. A

@@ -11,6 +11,8 @@
 #include "conformance/test_folder.h"
 #include "conformance/viewer.h"
 #include "image/io.h"
+#include "renderer/renderer.h"
+#include "scene/scene.h"
 
 namespace sheen::conformance {
 namespace {
@@ -34,10 +36,10 @@ class ServeTest : public testing::Test {
             {"output", (folder_.path() / (id + ".exr")).string()}};
   }
   /// The lines that come back, the hello line first.
-  std::vector<std::string> lines_for(const std::string& input) const {
+  std::vector<std::string> lines_for(const std::string& input, const ServeOptions& options = {}) const {
     std::istringstream in(input);
     std::ostringstream out;
-    serve(in, out, {});
+    serve(in, out, options);
     std::vector<std::string> lines;
     std::istringstream text(out.str());
     for (std::string line; std::getline(text, line);) {
@@ -114,6 +116,20 @@ TEST_F(ServeTest, AnEnvironmentLightsThePicture) {
   const image::Image with = image::read(folder_.path() / "filtered.exr");
   EXPECT_GT(with.at(8, 6, 1), without.at(8, 6, 1));
   EXPECT_NE(image::read(folder_.path() / "sampled.exr").data, with.data);
+}
+
+TEST_F(ServeTest, DrawsTheSceneAndTheSettingsAsTheyWereAltered) {
+  ServeOptions options;
+  options.alter = [](scene::Scene& scene, renderer::Settings& settings) {
+    scene.materials.at(0).emissive_factor = glm::dvec3(7.0);
+    settings.view.width = 4;
+  };
+  lines_for(request("plain").dump() + "\n");
+  lines_for(request("altered").dump() + "\n", options);
+  const image::Image plain = image::read(folder_.path() / "plain.exr");
+  const image::Image altered = image::read(folder_.path() / "altered.exr");
+  EXPECT_EQ(altered.width, 4);
+  EXPECT_GT(altered.at(2, 6, 0), plain.at(8, 6, 0) + 6.0F);
 }
 
 TEST_F(ServeTest, EvaluatesAFunctionAtTheArgumentsOfAFile) {

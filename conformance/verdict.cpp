@@ -76,7 +76,7 @@ class Judge {
                        [&](int c) { return c < 0 || std::isfinite(candidate_.at(x, y, c)); });
   }
   std::size_t exclusion(int x, int y) const {
-    return static_cast<std::size_t>(std::clamp(golden_.at(x, y, channels_.excluded), 0.0F, 3.0F));
+    return static_cast<std::size_t>(std::clamp(golden_.at(x, y, channels_.excluded), 0.0F, 4.0F));
   }
   /// The brightest channel of the golden, and its bound.
   Sample brightest(int x, int y) const {
@@ -91,6 +91,7 @@ class Judge {
     s.reference = golden_.at(x, y, channels_.golden.at(c));
     s.bound = golden_.at(x, y, channels_.bound.at(c));
     if (c < 3) {
+      s.bound += rules_.relative_tolerance * std::abs(s.reference) + rules_.absolute_tolerance;
       s.bound += rules_.environment_tolerance * std::max(std::abs(s.reference), 1e-3);
     }
     if (rules_.golden_is_pxr24) {
@@ -153,6 +154,7 @@ std::int64_t count_vague(const Judge& judge, const image::Image& golden) {
 
 void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
   std::vector<double> relative;
+  std::vector<double> bounds;
   for (int y = 0; y < golden.height; ++y) {
     for (int x = 0; x < golden.width; ++x) {
       const bool finite = judge.finite(x, y);
@@ -180,6 +182,9 @@ void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
         verdict.max_abs = std::max(verdict.max_abs, sample.error);
         verdict.max_rel = std::max(verdict.max_rel, sample.relative());
         relative.push_back(sample.relative());
+        if (c < 3) {
+          bounds.push_back(sample.bound / std::max(std::abs(sample.reference), 1e-3));
+        }
         if (sample.ratio() > verdict.bound_ratio || verdict.worst_x < 0) {
           verdict.bound_ratio = sample.ratio();
           verdict.worst_x = x;
@@ -189,6 +194,7 @@ void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
     }
   }
   verdict.p99_rel = nearest_rank(relative, 0.99);
+  verdict.median_bound = nearest_rank(bounds, 0.5);
   verdict.vague_pixels = count_vague(judge, golden);
 }
 
@@ -196,8 +202,9 @@ void measure(const Judge& judge, const image::Image& golden, Verdict& verdict) {
 std::string too_many_excluded(const Verdict& verdict, std::int64_t covered) {
   std::string text =
       std::to_string(verdict.excluded_pixels) + " of " + std::to_string(covered) + " covered pixels are excluded, more than may be";
-  constexpr std::array<const char*, 4> reasons = {nullptr, "at edges", "where an alpha mask may fall either way",
-                                                  "where a texture without mipmaps is seen from too far"};
+  constexpr std::array<const char*, 5> reasons = {nullptr, "at edges", "where an alpha mask may fall either way",
+                                                  "where a texture without mipmaps is seen from too far",
+                                                  "where the rules of GLSL ES promise nothing"};
   std::string parts;
   for (std::size_t reason = 1; reason < reasons.size(); ++reason) {
     if (verdict.excluded_by.at(reason) > 0) {

@@ -17,17 +17,18 @@ std::string to_string(Status status);
 /// What a comparison of a candidate with its golden came to.
 struct Verdict {
   Status status = Status::Invalid;
-  double max_abs = 0;      ///< largest absolute error of a compared channel
-  double max_rel = 0;      ///< largest error / max(|golden|, 1e-3)
-  double p99_rel = 0;      ///< 99th percentile (nearest rank) of the relative errors of all compared channels
-  double bound_ratio = 0;  ///< largest error over its bound: at most 1 passes
-  int worst_x = -1;        ///< the pixel of bound_ratio, rows from the top; -1 when nothing was compared
+  double max_abs = 0;       ///< largest absolute error of a compared channel
+  double max_rel = 0;       ///< largest error / max(|golden|, 1e-3)
+  double p99_rel = 0;       ///< 99th percentile (nearest rank) of the relative errors of all compared channels
+  double bound_ratio = 0;   ///< largest error over its bound: at most 1 passes
+  double median_bound = 0;  ///< median of the bounds of all compared channels but coverage, over max(|golden|, 1e-3)
+  int worst_x = -1;         ///< the pixel of bound_ratio, rows from the top; -1 when nothing was compared
   int worst_y = -1;
   std::int64_t compared_pixels = 0;
   std::int64_t excluded_pixels = 0;  ///< covered by either image, and left out since rasterisation may rightly differ there
   /// Those left out by the golden's reason: [1] another surface or none, [2] an alpha mask that may fall either way, [3] a texture without
-  /// mipmaps seen from too far.
-  std::array<std::int64_t, 4> excluded_by{};
+  /// mipmaps seen from too far, [4] an operation for which the rules of GLSL ES promise nothing.
+  std::array<std::int64_t, 5> excluded_by{};
   /// Compared, but black and twice the golden would both pass, and it shows: its bound is above the brightest channel of the pixel and
   /// above a tenth of what the picture's pixels have on average.
   std::int64_t vague_pixels = 0;
@@ -45,6 +46,10 @@ struct VerdictRules {
   bool candidate_is_srgb8 = false;
   /// Leave out the pixels of the golden's channel "mirrored" (N.V <= 0, where the choice taken binds our own viewer alone).
   bool leave_out_mirrored = false;
+  /// Granted beyond the bound, a share of the value and an absolute one: to viewers of others, whose formulas, precision and targets need
+  /// not be those that the bound is derived for.
+  double relative_tolerance = 0;
+  double absolute_tolerance = 0;
   /// The candidate's light from everywhere was sampled or filtered: this share of a value (at least of 1e-3) is granted beyond the bound.
   double environment_tolerance = 0;
   /// A golden with more than this share of its covered pixels excluded judges nothing.

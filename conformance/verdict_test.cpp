@@ -76,6 +76,16 @@ TEST_F(VerdictTest, EachChannelAlphaTooIsCompared) {
   }
 }
 
+TEST_F(VerdictTest, EveryCoveredPixelAloneDecides) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width / 2; ++x) {
+      image::Image off = candidate_;
+      off.at(x, y, 0) += 0.01F;
+      EXPECT_EQ(judge(off, golden_, rules_).status, Status::Fail) << "pixel " << x << ", " << y;
+    }
+  }
+}
+
 TEST_F(VerdictTest, SwappedChannelsFail) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

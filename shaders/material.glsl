@@ -1,6 +1,5 @@
-// The material's inputs: factor times texture, each in the channel and colour space its specification gives (textures are uploaded already
-// decoded to linear). For every texture the program states X_UV (its coordinates, transformed by KHR_texture_transform) and X_SAMPLER (its
-// wrap and filter).
+// The material's inputs: factor times texture, each in the channel and colour space its specification gives. For every texture the
+// program states X_UV (its coordinates, transformed by KHR_texture_transform) and X_SAMPLER (its size, wrap, filter, and how it is stored).
 
 #ifdef TEXCOORD_0
 in vec2 v_texcoord_0;
@@ -16,7 +15,8 @@ uniform vec4 u_base_color_factor;
 in vec4 v_color;
 #endif
 #ifdef BASE_COLOR_TEXTURE
-uniform sampler2D u_base_color_texture;
+uniform usampler2D u_base_color_texture;
+uniform ivec2 u_base_color_texture_size;
 #ifdef BASE_COLOR_TEXTURE_TRANSFORM
 uniform mat3 u_base_color_texture_transform;
 #endif
@@ -38,7 +38,8 @@ vec4 material_base_color() {
 uniform float u_metallic_factor;
 uniform float u_roughness_factor;
 #ifdef METALLIC_ROUGHNESS_TEXTURE
-uniform sampler2D u_metallic_roughness_texture;
+uniform usampler2D u_metallic_roughness_texture;
+uniform ivec2 u_metallic_roughness_texture_size;
 #ifdef METALLIC_ROUGHNESS_TEXTURE_TRANSFORM
 uniform mat3 u_metallic_roughness_texture_transform;
 #endif
@@ -59,13 +60,15 @@ uniform float u_specular_f0;
 uniform float u_specular_factor;
 uniform vec3 u_specular_color_factor;
 #ifdef SPECULAR_TEXTURE
-uniform sampler2D u_specular_texture;
+uniform usampler2D u_specular_texture;
+uniform ivec2 u_specular_texture_size;
 #ifdef SPECULAR_TEXTURE_TRANSFORM
 uniform mat3 u_specular_texture_transform;
 #endif
 #endif
 #ifdef SPECULAR_COLOR_TEXTURE
-uniform sampler2D u_specular_color_texture;
+uniform usampler2D u_specular_color_texture;
+uniform ivec2 u_specular_color_texture_size;
 #ifdef SPECULAR_COLOR_TEXTURE_TRANSFORM
 uniform mat3 u_specular_color_texture_transform;
 #endif
@@ -91,13 +94,15 @@ uniform vec3 u_sheen_color_factor;
 uniform float u_sheen_roughness_factor;
 #endif
 #ifdef SHEEN_COLOR_TEXTURE
-uniform sampler2D u_sheen_color_texture;
+uniform usampler2D u_sheen_color_texture;
+uniform ivec2 u_sheen_color_texture_size;
 #ifdef SHEEN_COLOR_TEXTURE_TRANSFORM
 uniform mat3 u_sheen_color_texture_transform;
 #endif
 #endif
 #ifdef SHEEN_ROUGHNESS_TEXTURE
-uniform sampler2D u_sheen_roughness_texture;
+uniform usampler2D u_sheen_roughness_texture;
+uniform ivec2 u_sheen_roughness_texture_size;
 #ifdef SHEEN_ROUGHNESS_TEXTURE_TRANSFORM
 uniform mat3 u_sheen_roughness_texture_transform;
 #endif
@@ -123,7 +128,8 @@ vec4 material_sheen() {
 #ifdef CLEARCOAT
 uniform float u_clearcoat_factor;
 #ifdef CLEARCOAT_TEXTURE
-uniform sampler2D u_clearcoat_texture;
+uniform usampler2D u_clearcoat_texture;
+uniform ivec2 u_clearcoat_texture_size;
 #ifdef CLEARCOAT_TEXTURE_TRANSFORM
 uniform mat3 u_clearcoat_texture_transform;
 #endif
@@ -138,7 +144,8 @@ float material_clearcoat() {
 #ifdef LIT
 uniform float u_clearcoat_roughness_factor;
 #ifdef CLEARCOAT_ROUGHNESS_TEXTURE
-uniform sampler2D u_clearcoat_roughness_texture;
+uniform usampler2D u_clearcoat_roughness_texture;
+uniform ivec2 u_clearcoat_roughness_texture_size;
 #ifdef CLEARCOAT_ROUGHNESS_TEXTURE_TRANSFORM
 uniform mat3 u_clearcoat_roughness_texture_transform;
 #endif
@@ -157,7 +164,8 @@ float material_clearcoat_roughness() {
 #ifdef EMISSION
 uniform vec3 u_emissive_factor;
 #ifdef EMISSIVE_TEXTURE
-uniform sampler2D u_emissive_texture;
+uniform usampler2D u_emissive_texture;
+uniform ivec2 u_emissive_texture_size;
 #ifdef EMISSIVE_TEXTURE_TRANSFORM
 uniform mat3 u_emissive_texture_transform;
 #endif
@@ -174,7 +182,8 @@ vec3 material_emission() {
 // glTF 2.0, section 3.9.3: occlusionTexture.r, linear, "1.0 + strength * (occlusionTexture - 1.0)"; of light from the environment alone.
 #ifdef ENVIRONMENT
 #ifdef OCCLUSION_TEXTURE
-uniform sampler2D u_occlusion_texture;
+uniform usampler2D u_occlusion_texture;
+uniform ivec2 u_occlusion_texture_size;
 uniform float u_occlusion_strength;
 #ifdef OCCLUSION_TEXTURE_TRANSFORM
 uniform mat3 u_occlusion_texture_transform;

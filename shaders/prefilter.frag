@@ -1,7 +1,8 @@
 // An environment's image filtered by a lobe seen from above, V = N (Karis 2013, "Real Shading in Unreal Engine 4"): for each direction N
 // the mean of the image over directions L, weighted by the lobe times N.L.
 
-uniform sampler2D u_image;  // equirect with its mipmaps
+uniform usampler2D u_image;  // equirect with its mipmaps
+uniform ivec2 u_image_size;
 uniform ivec2 u_origin;     // of the part to draw, in rows from the top
 uniform ivec2 u_size;
 uniform int u_rows;         // of the whole picture
@@ -15,7 +16,7 @@ vec3 direction_at(vec2 uv) {
 }
 
 vec4 image_level(vec2 uv, int level) {
-    return texture_level(u_image, uv, picture_size(u_image, MIP_LINEAR), level, WRAP_REPEAT, WRAP_CLAMP_TO_EDGE, FILTER_LINEAR);
+    return texture_level(u_image, uv, u_image_size, level, false, WRAP_REPEAT, WRAP_CLAMP_TO_EDGE, FILTER_LINEAR, STORED_FLOATS);
 }
 
 #ifdef KERNEL_GGX
@@ -30,7 +31,7 @@ uniform sampler2D u_points;  // rows by turns: points of the unit square; nothin
 uniform int u_point_count;
 
 vec3 filtered(vec3 N) {
-    ivec2 size = picture_size(u_image, MIP_LINEAR);
+    ivec2 size = u_image_size;
     int last = max((floatBitsToInt(float(max(size.x, size.y))) >> 23) - 128, 0);
     vec3 B = normalize_or(vec3(-N.z, 0.0, N.x), vec3(0.0, 0.0, 1.0));
     vec3 T = cross(B, N);
@@ -77,9 +78,8 @@ float kernel(float NdotL) {
 }
 
 vec3 filtered(vec3 N) {
-    ivec2 base = picture_size(u_image, MIP_LINEAR);
-    ivec2 size = max(base >> u_level, ivec2(1));
-    ivec2 origin = level_origin(base, u_level);
+    ivec2 size = max(u_image_size >> u_level, ivec2(1));
+    ivec2 origin = level_origin(u_image_size, STORED_FLOATS, u_level);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int y = 0; y < size.y; ++y) {
@@ -88,7 +88,7 @@ vec3 filtered(vec3 N) {
             float NdotL = min(dot(N, direction_at((vec2(x, y) + 0.5) / vec2(size))), 1.0);
             if (NdotL <= 0.0) continue;
             float weight = kernel(NdotL) * sine;
-            sum += weight * texelFetch(u_image, origin + ivec2(x, y), 0).rgb;
+            sum += weight * uintBitsToFloat(texelFetch(u_image, origin + ivec2(x, y), 0).rgb);
             weights += weight;
         }
     }

@@ -5,14 +5,16 @@ in vec3 v_normal;
 in vec4 v_tangent;
 #endif
 #ifdef NORMAL_TEXTURE
-uniform sampler2D u_normal_texture;
+uniform usampler2D u_normal_texture;
+uniform ivec2 u_normal_texture_size;
 uniform float u_normal_scale;
 #ifdef NORMAL_TEXTURE_TRANSFORM
 uniform mat3 u_normal_texture_transform;
 #endif
 #endif
 #ifdef CLEARCOAT_NORMAL_TEXTURE
-uniform sampler2D u_clearcoat_normal_texture;
+uniform usampler2D u_clearcoat_normal_texture;
+uniform ivec2 u_clearcoat_normal_texture_size;
 uniform float u_clearcoat_normal_scale;
 #ifdef CLEARCOAT_NORMAL_TEXTURE_TRANSFORM
 uniform mat3 u_clearcoat_normal_texture_transform;

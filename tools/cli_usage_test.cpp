@@ -14,17 +14,10 @@ void expect_refused(const Outcome& outcome, int exit_code, const std::string& wo
 }
 
 TEST_F(CommandLine, EveryCommandHasHelpThatNamesItsFlags) {
-  const std::vector<std::pair<std::vector<std::string>, std::string>> commands{{{"render"}, "--tone-map"},
-                                                                               {{"golden"}, "--camera"},
-                                                                               {{"compare"}, "--tolerance"},
-                                                                               {{"list"}, "--suite"},
-                                                                               {{"run"}, "--strict"},
-                                                                               {{"goldens"}, "verify"},
-                                                                               {{"goldens", "generate"}, "--suite"},
-                                                                               {{"goldens", "verify"}, "--suite"},
-                                                                               {{"lut"}, "--check"},
-                                                                               {{"explain"}, "--visibility"},
-                                                                               {{"serve"}, "--context"}};
+  const std::vector<std::pair<std::vector<std::string>, std::string>> commands{
+      {{"render"}, "--tone-map"},         {{"golden"}, "--camera"}, {{"compare"}, "--tolerance"},  {{"list"}, "--suite"},
+      {{"run"}, "--case-limit"},          {{"join"}, "--output"},   {{"goldens"}, "verify"},       {{"goldens", "generate"}, "--suite"},
+      {{"goldens", "verify"}, "--suite"}, {{"lut"}, "--check"},     {{"explain"}, "--visibility"}, {{"serve"}, "--context"}};
   for (const auto& [words, flag] : commands) {
     std::vector<std::string> arguments = words;
     arguments.emplace_back("--help");

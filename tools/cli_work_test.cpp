@@ -339,30 +339,6 @@ TEST_F(CommandLine, BothWaysToRenderAnEnvironmentMeetItsGolden) {
   }
 }
 
-TEST_F(CommandLine, ListNamesTheCasesThatTheFilterLetsThrough) {
-  const Outcome all = run({"list", "--json"});
-  ASSERT_EQ(all.exit_code, 0) << all.err;
-  const auto cases = nlohmann::json::parse(all.out)["cases"];
-  EXPECT_GE(cases.size(), 120U);
-  const std::string first = cases[0]["name"];
-  EXPECT_EQ(run({"list", "--filter", first}).out, first + "\n");
-  EXPECT_EQ(run({"list", "--suite", "no-such-suite"}).exit_code, 2);
-}
-
-TEST_F(CommandLine, ARunOfOneCaseWritesItsReport) {
-  const auto cases = nlohmann::json::parse(run({"list", "--json"}).out)["cases"];
-  const std::string first = cases[0]["name"];
-  const Outcome outcome = run({"run", "--filter", first, "--report", path("report"), "--json"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto results = nlohmann::json::parse(outcome.out);
-  EXPECT_EQ(results["summary"]["pass"], 1);
-  EXPECT_EQ(results["cases"][0]["name"], first);
-  for (const char* name : {"report/index.html", "report/results.json", "report/results.xml"}) {
-    EXPECT_TRUE(exists(name)) << name;
-  }
-  EXPECT_NE(outcome.err.find("index.html"), std::string::npos);
-}
-
 TEST_F(CommandLine, ServeAnswersByTheViewerProtocol) {
   const Outcome hello = run({"serve", "--json"});
   ASSERT_EQ(hello.exit_code, 0) << hello.err;

@@ -263,11 +263,26 @@ Action declare_run(CLI::App& app) {
   add_path(app, "--report", options->report, "Folder of the report (sheen-cts-report/SUITE)")->type_name("DIR");
   add_path(app, "--goldens", options->goldens, "Folder of the committed goldens (those that came with this program)")->type_name("DIR");
   app.add_flag("--strict", options->strict, "Approximations count as failures");
+  app.add_option("--case-limit", options->case_limit_seconds, "Seconds that a viewer has for one picture before its case is a timeout")
+      ->check(CLI::Range(0.001, 86400.0))
+      ->type_name("SECONDS")
+      ->capture_default_str();
   app.add_option("--environment-samples", options->environment_samples,
                  "Directions a pixel that our own viewer draws toward an environment; 0: the real-time way")
       ->check(CLI::Range(0, 1 << 24))
       ->capture_default_str();
   return [options] { return run(*options); };
+}
+
+Action declare_join(CLI::App& app) {
+  auto options = std::make_shared<JoinOptions>();
+  app.add_option("RUN", options->runs,
+                 "Report folder of a run, as DIR or NAME=DIR; runs of several suites on one driver, or its shards, share a NAME")
+      ->type_name("DIR")
+      ->required();
+  add_path(app, "-o,--output", options->output, "Folder of the joint report")->type_name("DIR")->required();
+  add_json(app, *options);
+  return [options] { return join(*options); };
 }
 
 template <int (*operation)(const GoldensOptions&)>
@@ -299,6 +314,8 @@ std::vector<Command> commands() {
        declare_compare},
       {"list", "List the cases of a suite", "list --suite core --filter 'sheen.*'", declare_list},
       {"run", "Run a suite against a viewer and write a report", "run --suite core --report report", declare_run},
+      {"join", "Lay runs of a suite on several drivers side by side", "join llvmpipe=report/llvmpipe softpipe=report/softpipe -o report",
+       declare_join},
       {"goldens",
        "Make or check the committed goldens",
        nullptr,

@@ -16,8 +16,7 @@
 namespace sheen::tools {
 
 int explain(const RenderOptions& options) {
-  const scene::Scene scene = load_scene(options);
-  const std::optional<scene::Environment> environment = load_environment(options, scene);
+  const auto [scene, environment] = load_input(options);
   const renderer::Requirements required = renderer::requirements(scene, options.settings(environment));
   const std::vector<std::pair<const char*, const std::vector<std::string>*>> lists{{"features", &required.features},
                                                                                    {"defines", &required.defines},

@@ -20,7 +20,7 @@
 namespace sheen::tools {
 
 image::Image golden_image(const scene::Scene& scene, const SceneOptions& options, int subpixel_bits,
-                          const std::optional<scene::Environment>& environment, const golden::SamplingGoal& sampling) {
+                          const std::optional<scene::Environment>& environment, const golden::SamplingGoal& sampling, bool bounds) {
   const std::int64_t pixels = std::int64_t{options.view.width} * options.view.height;
   Progress progress("golden", "pixels", pixels);
   golden::Settings settings;
@@ -29,6 +29,7 @@ image::Image golden_image(const scene::Scene& scene, const SceneOptions& options
   settings.subpixel_bits = subpixel_bits;
   settings.environment = environment ? &*environment : nullptr;
   settings.sampling = sampling;
+  settings.bounds = bounds;
   settings.progress = [&progress, pixels](double share) {
     progress.update(static_cast<std::int64_t>(share * static_cast<double>(pixels)));
   };
@@ -38,8 +39,7 @@ image::Image golden_image(const scene::Scene& scene, const SceneOptions& options
 int golden(const GoldenOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
-  const scene::Scene scene = load_scene(options);
-  const std::optional<scene::Environment> environment = load_environment(options, scene);
+  const auto [scene, environment] = load_input(options);
   golden::SamplingGoal sampling;
   sampling.seed = static_cast<std::uint64_t>(options.seed);
   if (options.samples) {
@@ -47,14 +47,16 @@ int golden(const GoldenOptions& options) {
     sampling.error = 0.0;
   }
   sampling.error = options.error.value_or(sampling.error);
-  const image::Image picture = golden_image(scene, options, golden::Settings().subpixel_bits, environment, sampling);
+  // Other files than .exr have no room for bounds.
+  const bool bounds = extension_of(options.output) == ".exr";
+  const image::Image picture = golden_image(scene, options, golden::Settings().subpixel_bits, environment, sampling, bounds);
   image::write(options.output, picture);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.json) {
     std::cout << conformance::json_text(nlohmann::ordered_json{{"output", options.output.string()},
                                                                {"width", picture.width},
                                                                {"height", picture.height},
-                                                               {"channels", extension_of(options.output) == ".exr" ? picture.channels
+                                                               {"channels", bounds ? picture.channels
                                                                             : extension_of(options.output) == ".png"
                                                                                 ? std::vector<std::string>{"R", "G", "B", "A"}
                                                                                 : std::vector<std::string>{"R", "G", "B"}},

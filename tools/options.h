@@ -97,7 +97,13 @@ struct RunOptions : ListOptions {
   std::filesystem::path report;   ///< empty: sheen-cts-report/SUITE in the current folder
   std::filesystem::path goldens;  ///< empty: those installed or, in a build tree, the source's
   bool strict = false;
+  double case_limit_seconds = 30;
   int environment_samples = 4096;  ///< directions a pixel that our own viewer draws; 0: the real-time way
+};
+
+struct JoinOptions : Common {
+  std::vector<std::string> runs;  ///< folders, each after NAME= or named by its last part
+  std::filesystem::path output;   ///< folder of the joint report
 };
 
 struct GoldensOptions : Common {
@@ -119,6 +125,7 @@ int lut_check(const LutOptions& options);
 int explain(const RenderOptions& options);
 int list(const ListOptions& options);
 int run(const RunOptions& options);
+int join(const JoinOptions& options);
 int goldens_generate(const GoldensOptions& options);
 int goldens_verify(const GoldensOptions& options);
 int serve(const ServeOptions& options);

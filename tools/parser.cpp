@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "conformance/case.h"
+#include "conformance/joined_runs.h"
 #include "conformance/json_text.h"
 #include "conformance/run.h"
 #include "gles/context.h"
@@ -53,6 +54,8 @@ int guarded(const Action& action, bool json) {
   } catch (const image::Error& error) {
     return fail(bad_input, error.what(), json);
   } catch (const conformance::SuiteError& error) {
+    return fail(bad_input, error.what(), json);
+  } catch (const conformance::ResultsError& error) {
     return fail(bad_input, error.what(), json);
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(bad_input, error.what(), json);

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <future>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include "conformance/goldens.h"
 #include "conformance/json_text.h"
+#include "conformance/judge.h"
 #include "conformance/verdict.h"
 #include "gles/context.h"
 #include "image/io.h"
@@ -63,14 +65,18 @@ nlohmann::ordered_json describe(const conformance::Verdict& verdict) {
 int render(const RenderOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
-  const scene::Scene scene = load_scene(options);
-  const std::optional<scene::Environment> environment = load_environment(options, scene);
-  const std::unique_ptr<gles::Context> context = gles::Context::create(options.context);
+  // The driver starts while the scene is read.
+  std::future<std::unique_ptr<gles::Context>> started =
+      std::async(std::launch::async, [&] { return gles::Context::create(options.context); });
+  const auto [scene, environment] = load_input(options);
+  const std::unique_ptr<gles::Context> context = started.get();
   renderer::Renderer renderer(*context, conformance::default_cache() / "environments");
   image::Image picture = renderer.render(scene, options.settings(environment));
   std::optional<conformance::Verdict> verdict;
   if (options.verify) {
-    verdict = conformance::judge(picture, golden_image(scene, options, context->info().subpixel_bits, environment), {});
+    conformance::VerdictRules rules;
+    rules.environment_tolerance = environment ? conformance::environment_tolerance : 0.0;
+    verdict = conformance::judge(picture, golden_image(scene, options, context->info().subpixel_bits, environment), rules);
   }
   apply_display(picture, options.tone_map, options.exposure);
   image::write(options.output, picture);

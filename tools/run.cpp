@@ -23,6 +23,7 @@ int run(const RunOptions& options) {
   settings.report =
       std::filesystem::absolute(options.report.empty() ? std::filesystem::path("sheen-cts-report") / options.suite : options.report);
   settings.strict = options.strict;
+  settings.case_limit_seconds = options.case_limit_seconds;
   settings.environment_samples = options.environment_samples;
   settings.goldens = options.goldens;
   std::unique_ptr<Progress> progress;

@@ -1,10 +1,13 @@
 #include "tools/scene_input.h"
 
 #include <cmath>
+#include <functional>
+#include <future>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -65,6 +68,33 @@ void note_left_out(const scene::Scene& scene) {
   }
 }
 
+/// What --environment names, if it is given.
+std::optional<scene::Environment> named_environment(const SceneOptions& options) {
+  if (options.environment.empty()) {
+    return {};
+  }
+  try {
+    return conformance::read_environment(options.environment);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError("--environment " + options.environment + ": " + error.what());
+  }
+}
+
+std::optional<scene::Environment> complete(std::optional<scene::Environment> named, const SceneOptions& options,
+                                           const scene::Scene& scene) {
+  if (!named && scene.lights.empty()) {
+    std::cerr << "note: " << scene.file << " has no light: lit by --environment uniform:1,1,1\n";
+    named.emplace().uniform = glm::dvec3(1.0);
+  }
+  if (named) {
+    named->rotation = glm::radians(options.environment_rotation);
+    named->background = options.background;
+  } else if (options.background) {
+    throw UsageError("--background: needs --environment");
+  }
+  return named;
+}
+
 }  // namespace
 
 scene::Scene load_scene(const SceneOptions& options) {
@@ -82,24 +112,15 @@ scene::Scene load_scene(const SceneOptions& options) {
 }
 
 std::optional<scene::Environment> load_environment(const SceneOptions& options, const scene::Scene& scene) {
-  std::optional<scene::Environment> environment;
-  if (!options.environment.empty()) {
-    try {
-      environment = conformance::read_environment(options.environment);
-    } catch (const std::invalid_argument& error) {
-      throw UsageError("--environment " + options.environment + ": " + error.what());
-    }
-  } else if (scene.lights.empty()) {
-    std::cerr << "note: " << scene.file << " has no light: lit by --environment uniform:1,1,1\n";
-    environment.emplace().uniform = glm::dvec3(1.0);
-  }
-  if (environment) {
-    environment->rotation = glm::radians(options.environment_rotation);
-    environment->background = options.background;
-  } else if (options.background) {
-    throw UsageError("--background: needs --environment");
-  }
-  return environment;
+  return complete(named_environment(options), options, scene);
+}
+
+Input load_input(const SceneOptions& options) {
+  std::future<std::optional<scene::Environment>> named = std::async(std::launch::async, named_environment, std::cref(options));
+  Input input;
+  input.scene = load_scene(options);
+  input.environment = complete(named.get(), options, input.scene);
+  return input;
 }
 
 }  // namespace sheen::tools

@@ -24,4 +24,13 @@ scene::Scene load_scene(const SceneOptions& options);
 /// uniform:1,1,1 where the scene has no light, which a note on stderr says. Throws UsageError, scene::Error, image::Error.
 std::optional<scene::Environment> load_environment(const SceneOptions& options, const scene::Scene& scene);
 
+/// What a picture is made of.
+struct Input {
+  scene::Scene scene;
+  std::optional<scene::Environment> environment;
+};
+
+/// Both of them, read side by side. Throws what load_scene() and load_environment() do, the scene's error before the environment's.
+Input load_input(const SceneOptions& options);
+
 }  // namespace sheen::tools

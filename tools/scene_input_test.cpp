@@ -78,5 +78,12 @@ TEST(LoadEnvironment, BackgroundNeedsAnEnvironment) {
   EXPECT_THROW(load_environment(options, scene), UsageError);
 }
 
+TEST(LoadInput, TellsOfTheSceneBeforeTheEnvironment) {
+  SceneOptions options;
+  options.scene = "absent.glb";
+  options.environment = "sky.png";
+  EXPECT_THROW(load_input(options), scene::Error);
+}
+
 }  // namespace
 }  // namespace sheen::tools

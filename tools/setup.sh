@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that building and running need and this machine lacks. With --lint also those of tools/lint.sh.
+# Installs the Debian 12 packages that building and running need and this machine lacks. With --lint also those of tools/lint.sh,
+# with --drivers those of tools/drivers.sh.
 set -euo pipefail
 
 packages=(
@@ -15,7 +16,8 @@ packages=(
 for argument in "$@"; do
   case $argument in
     --lint) packages+=(clang-format clang-tidy git python3) ;;
-    *) echo "usage: tools/setup.sh [--lint]" >&2; exit 2 ;;
+    --drivers) packages+=(mesa-vulkan-drivers libvulkan1) ;;  # lavapipe, below zink
+    *) echo "usage: tools/setup.sh [--lint] [--drivers]" >&2; exit 2 ;;
   esac
 done
 

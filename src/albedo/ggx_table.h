@@ -25,8 +25,9 @@ struct GgxTable {
 GgxTable build_ggx_table();
 
 /// Read with the interpolation that the shader does, in double; cosines below min_n_dot_v count as min_n_dot_v. Loss and scale to a
-/// relative 2e-4 (ggx_albedo_test.cpp).
+/// relative ggx_table_error (ggx_albedo_test.cpp).
 GgxAlbedo lookup(const GgxTable& table, double n_dot_v, double alpha);
 GgxAlbedo lookup_average(const GgxTable& table, double alpha);
+inline constexpr double ggx_table_error = 2e-4;
 
 }  // namespace sheen::albedo

@@ -21,6 +21,11 @@ struct Table {
   static constexpr int height = 128;                ///< down to r = min_roughness
   static constexpr double min_roughness = 4.84e-6;  ///< a little above the last row's
 
+  // Where E is above 1e-10, so that log_peak_drop is below 25 (table_test.cpp holds the tables to these):
+  static constexpr double largest_value = 8.0;         ///< of |h|
+  static constexpr double largest_column_step = 1.12;  ///< between neighbouring columns
+  static constexpr double largest_row_step = 0.37;     ///< between neighbouring rows
+
   Visibility visibility = Visibility::Charlie;
   std::vector<float> values;  ///< row-major: values[row * width + column]
 };
@@ -29,7 +34,12 @@ struct Table {
 Table build_table(Visibility visibility);
 
 /// E read from the table with the interpolation that the shader does, in double; cosines below min_n_dot_v count as
-/// min_n_dot_v. The error against E is below 2e-5 of max(E, 1) (table_test.cpp).
+/// min_n_dot_v. The error against E is below interpolation_error of max(E, 1) (table_test.cpp).
 double lookup(const Table& table, double n_dot_v, double sheen_roughness);
+inline constexpr double interpolation_error = 2e-5;
+
+/// How far from E what a shader reads from the table may lie, by interpolation and by roundings in highp (number/precision.h states the
+/// rules), both arguments being exact. @param e  E at them
+double lookup_error(double e, double n_dot_v, double sheen_roughness);
 
 }  // namespace sheen::albedo

@@ -33,7 +33,7 @@ Rgb<Real> base_brdf(const Base<Real>& base, Real n_dot_l, Real n_dot_v, Real n_d
   const auto schlick = [&w](const Rgb<Real>& f0) {
     return Rgb<Real>{f0.r + (Real(1) - f0.r) * w, f0.g + (Real(1) - f0.g) * w, f0.b + (Real(1) - f0.b) * w};
   };
-  const Real lobe = ggx_distribution(base.alpha, n_dot_h, sin2_theta_h) * smith_visibility(base.alpha, n_dot_l, n_dot_v);
+  const Real lobe = specular_ggx(base.alpha, n_dot_l, n_dot_v, n_dot_h, sin2_theta_h);
   const Rgb<Real> fr = schlick(base.dielectric_f0);
   const Rgb<Real> dielectric = base.color * ((Real(1) - base.specular * max3(fr)) * Real(1 / pi)) + fr * (base.specular * lobe);
   const Rgb<Real> metal = schlick(base.color) * lobe;

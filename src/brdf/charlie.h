@@ -26,7 +26,7 @@ template <class Real>
 struct LambdaCurve {
   Real a, b, c, d, e;
 
-  Real l(Real x) const { return a / (Real(1) + b * pow(x, c)) + d * x + e; }
+  Real l(Real x) const { return a / (Real(1) + b * pow_from_zero(x, c)) + d * x + e; }
 
   /// Lambda(cos_theta) >= 0, cos_theta in [0, 1]; the second branch mirrors the first about 0.5 (KHR_materials_sheen, lambda_sheen).
   Real lambda(Real cos_theta) const {
@@ -55,7 +55,9 @@ LambdaCurve<Real> charlie_lambda_curve(Real alpha_g) {
 /// CC BY-SA 4.0; see NOTICE.
 template <class Real>
 LambdaCurve<Real> refined_lambda_curve(Real alpha_g) {
-  const Real w = Real(1.32805) - Real(1.59612) / (Real(1) + Real(0.20375) * pow(alpha_g, Real(-0.55825)));
+  // The power grows without limit toward alpha_g = 0, where the lobe itself is nothing.
+  const Real alpha = max(alpha_g, Real(1e-9));
+  const Real w = Real(1.32805) - Real(1.59612) / (Real(1) + Real(0.20375) * pow(alpha, Real(-0.55825)));
   const auto mix = [&w](double p0, double p1) { return w * Real(p1) + (Real(1) - w) * Real(p0); };
   return {mix(11.9095, 13.7000), mix(4.68753, 2.92754), mix(0.33467, 0.28670), mix(-2.22664, -0.81757), mix(-1.76591, -1.22466)};
 }

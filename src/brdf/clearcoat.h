@@ -15,10 +15,10 @@ Real clearcoat_weight(Real clearcoat, Real nc_dot_v) {
 }
 
 /// The coat's lobe D Vis in 1/sr, before its weight: GGX of alpha_c = clearcoatRoughness^2 about the coat's normal
-/// (KHR_materials_clearcoat, "Clearcoat BRDF"). Arguments as for ggx_distribution and smith_visibility.
+/// (KHR_materials_clearcoat, "Clearcoat BRDF"). Arguments as for specular_ggx.
 template <class Real>
 Real clearcoat_lobe(Real alpha_c, Real nc_dot_l, Real nc_dot_v, Real nc_dot_h, Real sin2_theta_h) {
-  return ggx_distribution(alpha_c, nc_dot_h, sin2_theta_h) * smith_visibility(alpha_c, nc_dot_l, nc_dot_v);
+  return specular_ggx(alpha_c, nc_dot_l, nc_dot_v, nc_dot_h, sin2_theta_h);
 }
 
 }  // namespace sheen::brdf

@@ -24,4 +24,12 @@ Real smith_visibility(Real alpha, Real n_dot_l, Real n_dot_v) {
   return Real(0.5) / (v + l);
 }
 
+/// The specular lobe D Vis in 1/sr. A mirror has none: 0, even where both cosines vanish with alpha and Vis has no value. Arguments as
+/// above.
+template <class Real>
+Real specular_ggx(Real alpha, Real n_dot_l, Real n_dot_v, Real n_dot_h, Real sin2_theta_h) {
+  const Real lobe = ggx_distribution(alpha, n_dot_h, sin2_theta_h) * smith_visibility(alpha, n_dot_l, n_dot_v);
+  return select(alpha > Real(0), lobe, Real(0));
+}
+
 }  // namespace sheen::brdf

@@ -26,6 +26,24 @@ inline long double select(bool condition, long double a, long double b) {
   return condition ? a : b;
 }
 
+/// Whether a condition may hold: in any lane of a batch, for anything that an uncertain value may be.
+inline bool any(bool condition) {
+  return condition;
+}
+
+/// x^y for y > 0 and x >= 0, which is 0 at x = 0. Apart from pow, since GLSL derives pow from log2 and promises nothing at 0: shaders
+/// branch there, and a number type that knows of it brings its own.
+template <class Real>
+Real pow_from_zero(const Real& x, const Real& y) {
+  return pow(x, y);
+}
+
+/// 1 / sqrt(x), x > 0. A number type may bring its own, as GLSL has a function for it.
+template <class Real>
+Real inversesqrt(const Real& x) {
+  return Real(1) / sqrt(x);
+}
+
 inline constexpr double pi = 3.14159265358979323846;
 
 /// A linear colour, or a factor a colour channel.

@@ -37,7 +37,7 @@ class PhysicalBase {
 
   /// In 1/sr; arguments as for base_brdf. @param light  albedo of the lobe at N.L
   Rgb<Real> brdf(const LobeAlbedo<Real>& light, Real n_dot_l, Real n_dot_v, Real n_dot_h, Real sin2_theta_h, Real v_dot_h) const {
-    const Real lobe = ggx_distribution(base_.alpha, n_dot_h, sin2_theta_h) * smith_visibility(base_.alpha, n_dot_l, n_dot_v);
+    const Real lobe = specular_ggx(base_.alpha, n_dot_l, n_dot_v, n_dot_h, sin2_theta_h);
     const Real diffuse = transmitted(light) * transmitted_view_ * per_transmitted_ * Real(1 / pi);
     return mixed(diffuse, lobe, lobe * schlick_weight(v_dot_h), multiple_scattering_lobe(light.loss, view_.loss, average_loss_));
   }

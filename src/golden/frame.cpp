@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "number/precision.h"
+
 namespace sheen::golden {
 namespace {
 
@@ -15,13 +17,17 @@ RayGenerator make_rays(const scene::Scene& scene, const scene::View& view) {
 
 }  // namespace
 
+double displacement(const Settings& settings) {
+  return std::ldexp(0.5, -settings.subpixel_bits) +
+         8 * number::epsilon<number::Highp> * std::max(settings.view.width, settings.view.height);
+}
+
 Frame::Frame(const scene::Scene& scene_in, const Settings& settings_in)
     : scene(scene_in),
       settings(settings_in),
       rays(make_rays(scene_in, settings_in.view)),
       geometry(scene_in),
-      reader(scene_in, geometry, rays, settings_in.environment != nullptr, settings_in.sheen.model,
-             std::ldexp(1.0, -settings_in.subpixel_bits)),
+      reader(scene_in, geometry, rays, settings_in.environment != nullptr, settings_in.sheen.model, displacement(settings_in)),
       tracer(scene_in, geometry, reader, rays),
       lights(prepare_lights(scene_in.lights)),
       model(albedo::resolved(settings_in.sheen)) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
@@ -61,9 +63,14 @@ Geometry::Geometry(const scene::Scene& scene) {
     placed.normal_matrix = normal_matrix(placed.linear);
     placed.first_vertex = static_cast<std::uint32_t>(positions_.size());
     placed.first_triangle = static_cast<std::uint32_t>(triangles_.size());
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high(-low);
     for (const glm::vec3& p : primitive.positions) {
       positions_.emplace_back(instance.world_from_local * glm::dvec4(glm::dvec3(p), 1.0));
+      low = glm::min(low, positions_.back());
+      high = glm::max(high, positions_.back());
     }
+    placed.radius = primitive.positions.empty() ? 0.0 : 0.5 * glm::length(high - low);
     for (std::size_t k = 0; k + 2 < primitive.indices.size(); k += 3) {
       triangles_.push_back({{placed.first_vertex + primitive.indices[k], placed.first_vertex + primitive.indices[k + 1],
                              placed.first_vertex + primitive.indices[k + 2]},
@@ -79,6 +86,14 @@ std::array<std::uint32_t, 3> Geometry::local_vertices(std::uint32_t triangle) co
   return {v[0] - first, v[1] - first, v[2] - first};
 }
 
+glm::dvec3 Geometry::edge_volumes(std::uint32_t triangle, const Ray& ray) const {
+  const auto& v = vertices(triangle);
+  const glm::dvec3 a = positions_[v[0]] - ray.origin;
+  const glm::dvec3 b = positions_[v[1]] - ray.origin;
+  const glm::dvec3 c = positions_[v[2]] - ray.origin;
+  return {glm::dot(ray.direction, glm::cross(b, c)), glm::dot(ray.direction, glm::cross(c, a)), glm::dot(ray.direction, glm::cross(a, b))};
+}
+
 std::optional<Hit> Geometry::meet(std::uint32_t triangle, const Ray& ray) const {
   const auto& v = vertices(triangle);
   const glm::dvec3 a = positions_[v[0]] - ray.origin;
@@ -86,9 +101,7 @@ std::optional<Hit> Geometry::meet(std::uint32_t triangle, const Ray& ray) const 
   const glm::dvec3 c = positions_[v[2]] - ray.origin;
   const glm::dvec3 normal = glm::cross(b - a, c - a);
   const double facing = glm::dot(normal, ray.direction);
-  // Edge functions: volumes spanned by the ray and each edge.
-  const glm::dvec3 volumes(glm::dot(ray.direction, glm::cross(b, c)), glm::dot(ray.direction, glm::cross(c, a)),
-                           glm::dot(ray.direction, glm::cross(a, b)));
+  const glm::dvec3 volumes = edge_volumes(triangle, ray);
   const double sum = volumes.x + volumes.y + volumes.z;
   if (facing == 0.0 || sum == 0.0 || !std::isfinite(1.0 / sum)) {
     return std::nullopt;

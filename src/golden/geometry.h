@@ -32,6 +32,7 @@ struct Placed {
   bool mirrored = false;
   glm::dmat3 linear{1.0};         ///< world from local, directions
   glm::dmat3 normal_matrix{1.0};  ///< a positive multiple of the inverse transpose; its cofactors, so that a flattened instance has one too
+  double radius = 0.0;            ///< half the diagonal of its box in world space, metres
   std::uint32_t first_vertex = 0;
   std::uint32_t first_triangle = 0;
 };
@@ -56,6 +57,10 @@ class Geometry {
   /// The triangle's plane met by a ray, inside the triangle or not; none where they are parallel. Two triangles that share an edge decide
   /// alike on which side of it the ray passes, since the edge function is the same up to its sign.
   std::optional<Hit> meet(std::uint32_t triangle, const Ray& ray) const;
+
+  /// The volumes that the ray's direction spans with each edge as seen from its origin: proportional to the weights of the point where it
+  /// meets the triangle's plane, and affine in where it crosses the picture.
+  glm::dvec3 edge_volumes(std::uint32_t triangle, const Ray& ray) const;
 
   /// Unit normal of the triangle on its front side, world space.
   glm::dvec3 face_normal(std::uint32_t triangle) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -20,6 +22,13 @@ glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
   return {c.r, c.g, c.b};
 }
 
+// A bound of the float that is stored: by its rounding wider, itself rounded up, and finite.
+float stored_bound(double bound, double value) {
+  constexpr float largest = std::numeric_limits<float>::max();
+  const double wide = bound + std::abs(value) * 0x1p-24;
+  return wide < static_cast<double>(largest) ? std::nextafter(static_cast<float>(wide), largest) : largest;
+}
+
 void store(const Pixel& pixel, bool bounds, int x, int y, image::Image& out) {
   const auto put = [&](int channel, double value) { out.at(x, y, channel) = static_cast<float>(value); };
   for (int c = 0; c < 3; ++c) {
@@ -30,11 +39,11 @@ void store(const Pixel& pixel, bool bounds, int x, int y, image::Image& out) {
     return;
   }
   for (int c = 0; c < 3; ++c) {
-    put(4 + c, pixel.bound[c]);
+    out.at(x, y, 4 + c) = pixel.bound[c] > 0.0 || pixel.radiance[c] != 0.0 ? stored_bound(pixel.bound[c], pixel.radiance[c]) : 0.0F;
   }
   put(7, static_cast<double>(pixel.excluded));
   put(8, pixel.mirrored ? 1.0 : 0.0);
-  put(9, pixel.coverage_bound);
+  out.at(x, y, 9) = pixel.coverage_bound > 0.0 ? stored_bound(pixel.coverage_bound, pixel.coverage) : 0.0F;
   for (int c = 0; c < 3 && out.channels.size() > 10; ++c) {
     put(10 + c, pixel.standard_error[c]);
   }
@@ -72,8 +81,12 @@ image::Image render(const scene::Scene& scene, const Settings& settings) {
   const int columns = (out.width + tile_size - 1) / tile_size;
   const int rows = (out.height + tile_size - 1) / tile_size;
   std::atomic<int> done{0};
+  std::optional<PixelBound> bound;
+  if (settings.bounds) {
+    bound.emplace(frame);
+  }
   const auto draw = [&](const tbb::blocked_range<int>& range) {
-    Tile tile(frame);
+    Tile tile(frame, bound ? &*bound : nullptr);
     for (int i = range.begin(); i < range.end(); ++i) {
       const int x0 = i % columns * tile_size;
       const int y0 = i / columns * tile_size;

@@ -17,7 +17,7 @@
 namespace sheen::golden {
 
 /// Changes with every change of a formula that can change a golden; part of the key of every cached or committed golden.
-inline constexpr const char* formula_version = "2";
+inline constexpr const char* formula_version = "3";
 
 struct Settings {
   scene::View view;

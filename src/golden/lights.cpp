@@ -17,9 +17,8 @@ std::vector<PreparedLight> prepare_lights(const std::vector<scene::Light>& light
     p.position = light.position;
     p.axis = light.direction;
     p.inverse_range = std::isfinite(light.range) && light.range > 0.0 ? 1.0 / light.range : 0.0;
-    const double cos_outer = std::cos(light.outer_cone);
-    p.cone_scale = 1.0 / std::max(0.001, std::cos(light.inner_cone) - cos_outer);
-    p.cone_offset = -cos_outer * p.cone_scale;
+    p.cone_cos_outer = std::cos(light.outer_cone);
+    p.cone_scale = 1.0 / std::max(0.001, std::cos(light.inner_cone) - p.cone_cos_outer);
     prepared.push_back(p);
   }
   return prepared;

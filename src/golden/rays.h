@@ -29,6 +29,8 @@ class RayGenerator {
   double depth(const glm::dvec3& point) const { return glm::dot(point - origin_, forward_); }
 
   const scene::Camera& camera() const { return camera_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
 
  private:
   scene::Camera camera_;

@@ -4,12 +4,10 @@
 #include <optional>
 #include <type_traits>
 
-#include "albedo/curve.h"
-#include "albedo/ggx_interpolant.h"
-#include "albedo/interpolant.h"
 #include "brdf/clearcoat.h"
 #include "brdf/physical_base.h"
 #include "brdf/sheen.h"
+#include "golden/albedo_reader.h"
 #include "golden/golden.h"
 #include "golden/lights.h"
 #include "golden/surface.h"
@@ -30,14 +28,17 @@ struct Lighting {
   const albedo::GgxInterpolant* ggx = nullptr;  ///< of the physical model alone, which it makes the base follow
 };
 
-/// Radiance of a surface, and what the approximations granted to a shader, and its roundings where they are magnified, may change in it.
+/// Radiance of a surface, and what an approximation granted to a shader may change in it.
 template <class Real>
 struct Shaded {
   brdf::Rgb<Real> radiance;
-  brdf::Rgb<Real> magnitude;  ///< sum of the terms' absolute values: equals radiance unless a scale went negative (`literal`)
-  brdf::Rgb<Real> lookup;     ///< error of reading E once, at min(N.V, N.L), instead of taking the larger of two, and at the rims of cones
-  Real mirrored;              ///< 1 where N.V <= 0 mirrored V, of either lobe's normal, else 0
+  brdf::Rgb<Real> lookup;  ///< error of reading E once, at min(N.V, N.L), instead of taking the larger of two
+  Real mirrored;           ///< 1 where N.V <= 0 mirrored V, of either lobe's normal, else 0
 };
+
+/// Whether Shaded::lookup is wanted of a number type.
+template <class Real>
+inline constexpr bool finds_lookup_error = true;
 
 /// One light's part, as the shading found it; see LightTerms.
 template <class Real>
@@ -86,12 +87,12 @@ struct HalfAngles {
   Real n_dot_h, sin2_theta_h, v_dot_h;
 
   HalfAngles(const LobeView<Real>& lobe, const Vec3<Real>& l) {
+    using brdf::inversesqrt;
     using brdf::max;
     using brdf::min;
-    using brdf::sqrt;
     const Vec3<Real> sum = l + lobe.v;
     // L = -V has no half vector; there N.L <= 0, so any finite one serves.
-    const Vec3<Real> h = sum * (Real(1) / sqrt(max(dot(sum, sum), Real(1e-300))));
+    const Vec3<Real> h = sum * inversesqrt(max(dot(sum, sum), Real(1e-30)));
     const Vec3<Real> sine = cross(lobe.n, h);
     n_dot_h = min(max(dot(lobe.n, h), Real(0)), Real(1));
     sin2_theta_h = min(dot(sine, sine), Real(1));
@@ -99,41 +100,10 @@ struct HalfAngles {
   }
 };
 
-/// E for every lane.
-template <class Real>
-Real directional_albedo(const albedo::Interpolant& albedo, const Real& cosine, const Real& sheen_roughness) {
-  constexpr std::size_t count = number::Lanes<Real>::count;
-  double c[count];
-  double r[count];
-  number::Lanes<Real>::store(c, cosine);
-  number::Lanes<Real>::store(r, sheen_roughness);
-  for (std::size_t i = 0; i < count; ++i) {
-    c[i] = albedo(c[i], r[i]);
-  }
-  return number::Lanes<Real>::load(c);
-}
-
-/// Albedo of the GGX lobe for every lane: at a cosine, or averaged over the hemisphere.
-template <class Real, class Read>
-brdf::LobeAlbedo<Real> ggx_albedo(const Read& read, const Real& cosine, const Real& alpha) {
-  using Lanes = number::Lanes<Real>;
-  double c[Lanes::count];
-  double a[Lanes::count];
-  Lanes::store(c, cosine);
-  Lanes::store(a, alpha);
-  for (std::size_t i = 0; i < Lanes::count; ++i) {
-    const albedo::GgxAlbedo of = read(c[i], a[i]);
-    c[i] = of.loss;
-    a[i] = of.bias;
-  }
-  return {Lanes::load(c), Lanes::load(a)};
-}
-
 /// The base of the physical model at one point, with what does not depend on the light found once.
 template <class Real>
 brdf::PhysicalBase<Real> physical_base(const brdf::Base<Real>& base, const Real& n_dot_v, const albedo::GgxInterpolant& ggx) {
-  const auto average = [&ggx](double, double alpha) { return ggx.average(alpha); };
-  return {base, ggx_albedo(ggx, n_dot_v, base.alpha), ggx_albedo(average, n_dot_v, base.alpha)};
+  return {base, AlbedoReader<Real>::ggx(ggx, n_dot_v, base.alpha), AlbedoReader<Real>::ggx_average(ggx, base.alpha)};
 }
 
 template <class Mask, class Real>
@@ -186,9 +156,7 @@ class SheenLayer {
   }
 
  private:
-  Real albedo_at(const Real& cosine) const {
-    return lighting_.curve != nullptr ? (*lighting_.curve)(cosine) : directional_albedo(*lighting_.albedo, cosine, roughness_);
-  }
+  Real albedo_at(const Real& cosine) const { return AlbedoReader<Real>::sheen(lighting_.albedo, lighting_.curve, cosine, roughness_); }
 
   brdf::SheenLobe<Real> lobe_;
   const Lighting& lighting_;
@@ -197,79 +165,126 @@ class SheenLayer {
   Real e_v_;
 };
 
+/// One surface while its lights are gone through: what none of them changes, found once.
+template <class Real>
+class Shading {
+ public:
+  using Color = brdf::Rgb<Real>;
+
+  Shading(const Surface<Real>& surface, Layers layers, const Lighting& lighting)
+      : surface_(surface),
+        layers_(layers),
+        lighting_(lighting),
+        lobe_(surface.normal, surface.view),
+        coat_(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view),
+        k_(layers.clearcoat ? brdf::clearcoat_weight(surface.clearcoat, coat_.n_dot_v) * Real(lighting.factors.coat_weight) : Real(0)),
+        below_(Real(1) - k_) {
+    if (layers.sheen) {
+      sheen_.emplace(surface, lobe_, lighting);
+    }
+    if (lighting.ggx != nullptr) {
+      physical_.emplace(physical_base(surface.base, lobe_.n_dot_v, *lighting.ggx));
+    }
+  }
+
+  Color emission() const { return surface_.emission * (below_ * Real(lighting_.factors.emission)); }
+  ViewPart<Real> view() const { return {lobe_.n_dot_v, sheen_ ? sheen_->e_v() : Real(0), k_, emission()}; }
+  Real mirrored() const {
+    using brdf::max;
+    return max(lobe_.mirrored, coat_.mirrored);
+  }
+
+  /// What one light adds. Where it lies behind a lobe's normal in every lane, that lobe is not evaluated.
+  /// @param wants_e_l  whether E(N.L) is to be told though the model does not need it
+  /// @param lookup     is added to; see Shaded
+  LightPart<Real> light(const Arriving<Real>& light, bool wants_e_l, Color& lookup) const {
+    using brdf::any;
+    const Color zero{Real(0), Real(0), Real(0)};
+    LightPart<Real> part{dot(surface_.normal, light.direction), Real(0), Real(0), Real(0), Real(0), Real(1), Real(0), zero, zero, zero};
+    const auto lit = part.n_dot_l > Real(0);
+    if (any(lit)) {
+      add_below(light, lit, wants_e_l, part, lookup);
+    }
+    if (layers_.clearcoat) {
+      const Real cosine = dot(surface_.coat_normal, light.direction);
+      const auto coat_lit = cosine > Real(0);
+      if (any(coat_lit)) {
+        add_coat(light, coat_lit, cosine, part);
+      }
+    }
+    return part;
+  }
+
+ private:
+  template <class Mask>
+  void add_below(const Arriving<Real>& light, const Mask& lit, bool wants_e_l, LightPart<Real>& part, Color& lookup) const {
+    using brdf::max;
+    using brdf::min;
+    using brdf::select;
+    const TermFactors& factors = lighting_.factors;
+    const Real n_dot_l = min(max(part.n_dot_l, Real(0)), Real(1));
+    const HalfAngles<Real> half(lobe_, light.direction);
+    part.n_dot_h = half.n_dot_h;
+    const Color base = base_brdf(n_dot_l, half) * Real(factors.base);
+    const Color irradiance = light.irradiance * below_;
+    if (sheen_) {
+      const Real e_l = sheen_->two_directions() || wants_e_l ? sheen_->e_l(lit, n_dot_l) : Real(0);
+      part.e_l = select(lit, e_l, Real(0));
+      part.d = sheen_->lobe().distribution(half.n_dot_h, half.sin2_theta_h) * Real(factors.distribution);
+      part.v = sheen_->lobe().visibility_times_n_dot_l(n_dot_l) * Real(factors.visibility);
+      part.scale = sheen_->scale(e_l);
+      part.sheen = keep_where(lit, irradiance * surface_.sheen_color * (part.d * part.v));
+      if (finds_lookup_error<Real> && sheen_->two_directions()) {
+        const Real missed = sheen_->single_lookup_scale(n_dot_l, e_l) - part.scale;
+        lookup = lookup + keep_where(lit, absolute(irradiance * base * (missed * n_dot_l)));
+      }
+    }
+    part.base = keep_where(lit, irradiance * base * (part.scale * n_dot_l));
+  }
+
+  Color base_brdf(const Real& n_dot_l, const HalfAngles<Real>& half) const {
+    if (physical_) {
+      const auto albedo = AlbedoReader<Real>::ggx(*lighting_.ggx, n_dot_l, surface_.base.alpha);
+      return physical_->brdf(albedo, n_dot_l, lobe_.n_dot_v, half.n_dot_h, half.sin2_theta_h, half.v_dot_h);
+    }
+    return brdf::base_brdf(surface_.base, n_dot_l, lobe_.n_dot_v, half.n_dot_h, half.sin2_theta_h, half.v_dot_h);
+  }
+
+  template <class Mask>
+  void add_coat(const Arriving<Real>& light, const Mask& lit, const Real& cosine, LightPart<Real>& part) const {
+    using brdf::max;
+    using brdf::min;
+    const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
+    const HalfAngles<Real> half(coat_, light.direction);
+    part.coat_lobe = brdf::clearcoat_lobe(surface_.coat_alpha, n_dot_l, coat_.n_dot_v, half.n_dot_h, half.sin2_theta_h) *
+                     Real(lighting_.factors.coat_lobe);
+    part.coat = keep_where(lit, light.irradiance * (k_ * part.coat_lobe * n_dot_l));
+  }
+
+  const Surface<Real>& surface_;
+  Layers layers_;
+  const Lighting& lighting_;
+  LobeView<Real> lobe_, coat_;
+  Real k_, below_;  // the coat's weight, and what it leaves of all below it
+  std::optional<SheenLayer<Real>> sheen_;
+  std::optional<brdf::PhysicalBase<Real>> physical_;
+};
+
 /// Radiance toward the camera, in lux / sr:
 ///   L_o = sum over lights E [ (1-k) (f_sheen + s base) max(N.L,0) + k D_c Vis_c max(Nc.L,0) ] + (1-k) emission.
 /// Every term passes `listener`, so that what is reported and what is drawn come from one evaluation.
 template <class Real, class Listener>
 Shaded<Real> shade(const Surface<Real>& surface, Layers layers, const Lighting& lighting, Listener&& listener) {
-  using brdf::max;
-  using brdf::min;
-  using brdf::select;
-  using Color = brdf::Rgb<Real>;
-  const Color zero{Real(0), Real(0), Real(0)};
-  const TermFactors& factors = lighting.factors;
-  const LobeView<Real> lobe(surface.normal, surface.view);
-  const LobeView<Real> coat(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view);
-  const Real k = layers.clearcoat ? brdf::clearcoat_weight(surface.clearcoat, coat.n_dot_v) * Real(factors.coat_weight) : Real(0);
-  const Real below = Real(1) - k;
-  std::optional<SheenLayer<Real>> sheen;
-  if (layers.sheen) {
-    sheen.emplace(surface, lobe, lighting);
-  }
-
-  std::optional<brdf::PhysicalBase<Real>> physical;
-  if (lighting.ggx != nullptr) {
-    physical.emplace(physical_base(surface.base, lobe.n_dot_v, *lighting.ggx));
-  }
-
-  const Color emission = surface.emission * (below * Real(factors.emission));
-  listener.view(ViewPart<Real>{lobe.n_dot_v, sheen ? sheen->e_v() : Real(0), k, emission});
-  Shaded<Real> out{emission, absolute(emission), zero, max(lobe.mirrored, coat.mirrored)};
-
+  constexpr bool wants_e_l = std::remove_cvref_t<Listener>::wants_e_l;
+  const Shading<Real> shading(surface, layers, lighting);
+  listener.view(shading.view());
+  Shaded<Real> out{shading.emission(), {Real(0), Real(0), Real(0)}, shading.mirrored()};
   for (std::size_t i = 0; i < lighting.light_count; ++i) {
     const Arriving<Real> light = lighting.distant != nullptr ? lighting.distant->arriving<Real>(i * number::Lanes<Real>::count)
                                                              : arriving(lighting.lights[i], surface.position);
-    const Real cosine = dot(surface.normal, light.direction);
-    const auto lit = cosine > Real(0);
-    LightPart<Real> part{cosine, Real(0), Real(0), Real(0), Real(0), Real(1), Real(0), zero, zero, zero};
-
-    const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
-    const HalfAngles<Real> half(lobe, light.direction);
-    part.n_dot_h = half.n_dot_h;
-    const Color base = (physical ? physical->brdf(ggx_albedo(*lighting.ggx, n_dot_l, surface.base.alpha), n_dot_l, lobe.n_dot_v,
-                                                  half.n_dot_h, half.sin2_theta_h, half.v_dot_h)
-                                 : brdf::base_brdf(surface.base, n_dot_l, lobe.n_dot_v, half.n_dot_h, half.sin2_theta_h, half.v_dot_h)) *
-                       Real(factors.base);
-    const Color irradiance_below = light.irradiance * below;
-    if (sheen) {
-      const bool needs_e_l = sheen->two_directions() || std::remove_cvref_t<Listener>::wants_e_l;
-      const Real e_l = needs_e_l ? sheen->e_l(lit, n_dot_l) : Real(0);
-      part.e_l = select(lit, e_l, Real(0));
-      part.d = sheen->lobe().distribution(half.n_dot_h, half.sin2_theta_h) * Real(factors.distribution);
-      part.v = sheen->lobe().visibility_times_n_dot_l(n_dot_l) * Real(factors.visibility);
-      part.scale = sheen->scale(e_l);
-      part.sheen = keep_where(lit, irradiance_below * surface.sheen_color * (part.d * part.v));
-      if (sheen->two_directions()) {
-        const Real missed = sheen->single_lookup_scale(n_dot_l, e_l) - part.scale;
-        out.lookup = out.lookup + keep_where(lit, absolute(irradiance_below * base * (missed * n_dot_l)));
-      }
-    }
-    part.base = keep_where(lit, irradiance_below * base * (part.scale * n_dot_l));
-
-    if (layers.clearcoat) {
-      const Real coat_cosine = dot(surface.coat_normal, light.direction);
-      const auto coat_lit = coat_cosine > Real(0);
-      const Real nc_dot_l = min(max(coat_cosine, Real(0)), Real(1));
-      const HalfAngles<Real> coat_half(coat, light.direction);
-      part.coat_lobe = brdf::clearcoat_lobe(surface.coat_alpha, nc_dot_l, coat.n_dot_v, coat_half.n_dot_h, coat_half.sin2_theta_h) *
-                       Real(factors.coat_lobe);
-      part.coat = keep_where(coat_lit, light.irradiance * (k * part.coat_lobe * nc_dot_l));
-    }
+    const LightPart<Real> part = shading.light(light, wants_e_l, out.lookup);
     listener.light(i, part);
     out.radiance = out.radiance + part.sheen + part.base + part.coat;
-    const Color magnitude = absolute(part.sheen) + absolute(part.base) + absolute(part.coat);
-    out.magnitude = out.magnitude + magnitude;
-    out.lookup = out.lookup + magnitude * light.rounding;
   }
   return out;
 }

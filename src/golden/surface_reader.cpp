@@ -44,8 +44,6 @@ struct SurfaceReader::Footprint {
   bool ideal_beyond = false;          // a neighbour's ray never meets the plane: the coarsest level
   const Slot* varied = nullptr;       // the texture whose level is given
   double level = 0.0;
-  std::array<glm::dvec3, 9> weights{};  // for that one: the 3 x 3 block, row by row
-  bool beyond = false;
   glm::dvec2 nudge{0.0};
   const Ray* ray = nullptr;
 };
@@ -118,6 +116,16 @@ void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store
   }
 }
 
+// The weights where the ray so many pixels beside this one meets the hit's plane. Sets `beyond` where none does.
+glm::dvec3 SurfaceReader::weights_beside(const Hit& hit, const Ray& ray, double dx, double dy, bool& beyond) const {
+  const auto met = geometry_.meet(hit.triangle, rays_.through(ray.x + dx, ray.y + dy));
+  if (!met || (rays_.camera().perspective && met->t <= 0.0)) {
+    beyond = true;
+    return glm::dvec3(0.0);
+  }
+  return met->weights;
+}
+
 SurfaceReader::Footprint SurfaceReader::footprint(const Hit& hit, const Ray& ray, LodChoice lod) const {
   Footprint f;
   f.nudge = lod.nudge;
@@ -126,24 +134,10 @@ SurfaceReader::Footprint SurfaceReader::footprint(const Hit& hit, const Ray& ray
     return f;
   }
   f.count = 1;
-  const auto weights_at = [&](double dx, double dy, bool& beyond) {
-    const auto met = geometry_.meet(hit.triangle, rays_.through(ray.x + dx, ray.y + dy));
-    if (!met || (rays_.camera().perspective && met->t <= 0.0)) {
-      beyond = true;
-      return glm::dvec3(0.0);
-    }
-    return met->weights;
-  };
-  f.ideal = {hit.weights, weights_at(1.0, 0.0, f.ideal_beyond), weights_at(0.0, 1.0, f.ideal_beyond)};
-  if (!lod.level) {
-    return f;
-  }
-  f.varied = &slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], lod.slot);
-  f.level = *lod.level;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      f.weights[static_cast<std::size_t>(3 * row + column)] = weights_at(column - 1, row - 1, f.beyond);
-    }
+  f.ideal = {hit.weights, weights_beside(hit, ray, 1.0, 0.0, f.ideal_beyond), weights_beside(hit, ray, 0.0, 1.0, f.ideal_beyond)};
+  if (lod.level) {
+    f.varied = &slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], lod.slot);
+    f.level = *lod.level;
   }
   return f;
 }
@@ -206,22 +200,6 @@ TextureReach SurfaceReader::texture_reach(const Hit& hit, const Ray& ray) const 
   return reach;
 }
 
-// The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes.
-LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
-  const glm::dvec2 size = slot.texture->size();
-  const double last = std::log2(std::max(size.x, size.y)) + 1.0;
-  if (footprint.beyond) {
-    return {-1.0, last};
-  }
-  glm::dvec2 texels[9];
-  for (std::size_t i = 0; i < 9; ++i) {
-    texels[i] = texcoord(slot, hit, footprint.weights[i]) * size;
-  }
-  const LodRange range = lod_range(texels);
-  const double low = std::clamp(range.lowest, -1.0, last);
-  return {low, std::clamp(range.highest, low, last)};
-}
-
 const SurfaceReader::Slot& SurfaceReader::slot_of(const Material& m, std::size_t slot) {
   const std::array<const Slot*, slot_count> slots{&m.base_color, &m.metallic_roughness,  &m.normal,           &m.emissive,
                                                   &m.specular,   &m.specular_color,      &m.sheen_color,      &m.sheen_roughness,
@@ -229,12 +207,25 @@ const SurfaceReader::Slot& SurfaceReader::slot_of(const Material& m, std::size_t
   return *slots[slot];
 }
 
+// The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes.
 std::optional<LodInterval> SurfaceReader::lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const {
   const Slot& s = slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], slot);
   if (!s.texture || !s.texture->needs_lod()) {
     return std::nullopt;
   }
-  return lod_interval(s, hit, footprint(hit, ray, {0.0, slot}));
+  const glm::dvec2 size = s.texture->size();
+  const double last = std::log2(std::max(size.x, size.y)) + 1.0;
+  glm::dvec2 texels[9];
+  bool beyond = false;
+  for (int i = 0; i < 9; ++i) {
+    texels[i] = texcoord(s, hit, weights_beside(hit, ray, i % 3 - 1, i / 3 - 1, beyond)) * size;
+  }
+  if (beyond) {
+    return LodInterval{-1.0, last};
+  }
+  const LodRange range = lod_range(texels);
+  const double low = std::clamp(range.lowest, -1.0, last);
+  return LodInterval{low, std::clamp(range.highest, low, last)};
 }
 
 std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const {
@@ -285,29 +276,34 @@ std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray,
   return finer;
 }
 
+double SurfaceReader::level(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
+  constexpr double coarsest = 1000.0;  // OpenGL ES 3.0.6, table 6.10: TEXTURE_MAX_LOD
+  if (footprint.count == 0 || !slot.texture->needs_lod()) {
+    return -coarsest;
+  }
+  if (footprint.varied == &slot) {
+    return footprint.level;
+  }
+  if (footprint.ideal_beyond) {
+    return coarsest;
+  }
+  const auto texels = [&](std::size_t i) { return texcoord(slot, hit, footprint.ideal[i]) * slot.texture->size(); };
+  return ideal_lod(texels(0), texels(1), texels(2));
+}
+
+double SurfaceReader::level(const Slot& slot, const Hit& hit, const Ray& ray) const {
+  return level(slot, hit, footprint(hit, ray, {}));
+}
+
 glm::dvec4 SurfaceReader::read(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
   if (!slot.texture) {
     return glm::dvec4(1.0);
-  }
-  constexpr double coarsest = 1000.0;  // OpenGL ES 3.0.6, table 6.10: TEXTURE_MAX_LOD
-  double lambda = -coarsest;
-  if (footprint.count != 0 && slot.texture->needs_lod()) {
-    if (footprint.varied == &slot) {
-      const LodInterval interval = lod_interval(slot, hit, footprint);
-      lambda = std::clamp(footprint.level, interval.low, interval.high);
-    } else if (footprint.ideal_beyond) {
-      lambda = coarsest;
-    } else {
-      const glm::dvec2 size = slot.texture->size();
-      const auto texels = [&](std::size_t i) { return texcoord(slot, hit, footprint.ideal[i]) * size; };
-      lambda = ideal_lod(texels(0), texels(1), texels(2));
-    }
   }
   glm::dvec2 uv = texcoord(slot, hit, hit.weights);
   if (footprint.nudge != glm::dvec2(0.0)) {
     uv += footprint.nudge * (coordinate_rounding(slot, hit) + moved_by_step(slot, hit, *footprint.ray));
   }
-  return sample(*slot.texture, uv, lambda);
+  return sample(*slot.texture, uv, level(slot, hit, footprint));
 }
 
 glm::dvec3 SurfaceReader::interpolated_normal(const Hit& hit) const {

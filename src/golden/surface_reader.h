@@ -13,9 +13,9 @@
 namespace sheen::golden {
 
 /// Which level of detail mipmapped textures are read at: the specification's ideal one, but for one texture of the material the one given,
-/// as far as OpenGL ES allows it to go: a driver chooses for each texture apart. And where all are read.
+/// for a driver chooses for each texture apart. And where all are read.
 struct LodChoice {
-  std::optional<double> level;  ///< none: the ideal level for all
+  std::optional<double> level;  ///< within lod_interval(); none: the ideal level for all
   std::size_t slot = 0;         ///< which texture, below SurfaceReader::slot_count
   glm::dvec2 nudge{0.0};        ///< of every texture's coordinates, as a share, -1 to 1, of the farthest that a driver's may lie off
 };
@@ -38,12 +38,28 @@ std::vector<double> levels_within(const LodInterval& range);
 /// Reads materials: everything between a hit and its shading.
 class SurfaceReader {
  public:
+  /// A texture of a material.
+  struct Slot {
+    std::optional<Texture> texture;
+    int texcoord = 0;
+    glm::dmat3 transform{1.0};
+  };
+  /// A material with its textures decoded.
+  struct Material {
+    const scene::Material* source = nullptr;
+    Layers layers;
+    bool needs_lod = false;
+    Slot base_color, metallic_roughness, normal, occlusion, emissive, specular, specular_color;
+    Slot sheen_color, sheen_roughness, clearcoat, clearcoat_roughness, clearcoat_normal;
+  };
+
   /// Decodes every texture that a material in use reads under that model: occlusion only for environment light. The references must outlive
   /// this. Throws scene::Error.
   /// @param step  by which a driver's grid may move a sample, in pixels
   SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment, brdf::Model model,
                 double step);
 
+  const Material& material(int index) const { return materials_[static_cast<std::size_t>(index)]; }
   Layers layers(int material) const { return materials_[static_cast<std::size_t>(material)].layers; }
   /// Whether a material's textures depend on the level of detail; else LodChoice changes nothing.
   bool needs_lod(int material) const { return materials_[static_cast<std::size_t>(material)].needs_lod; }
@@ -60,6 +76,9 @@ class SurfaceReader {
 
   TextureReach texture_reach(const Hit& hit, const Ray& ray) const;
 
+  /// The specification's ideal level of detail of a texture at a hit: where it has mipmaps or the two filters differ, else any.
+  double level(const Slot& slot, const Hit& hit, const Ray& ray) const;
+
   /// What shading needs at a hit of a ray; weights outside [0, 1] extrapolate.
   Surface<double> surface(const Hit& hit, const Ray& ray, LodChoice lod = {}) const;
 
@@ -67,25 +86,14 @@ class SurfaceReader {
   double opacity(const Hit& hit, const Ray& ray, LodChoice lod = {}) const;
 
  private:
-  struct Slot {
-    std::optional<Texture> texture;
-    int texcoord = 0;
-    glm::dmat3 transform{1.0};
-  };
-  struct Material {
-    const scene::Material* source = nullptr;
-    Layers layers;
-    bool needs_lod = false;
-    Slot base_color, metallic_roughness, normal, occlusion, emissive, specular, specular_color;
-    Slot sheen_color, sheen_roughness, clearcoat, clearcoat_roughness, clearcoat_normal;
-  };
   struct Footprint;
   static const Slot& slot_of(const Material& material, std::size_t slot);
   void read_material(const scene::Scene& scene, TextureStore& store, int index, bool environment);
   glm::dvec2 texcoord(const Slot& slot, const Hit& hit, const glm::dvec3& weights) const;
   glm::dvec2 coordinate_rounding(const Slot& slot, const Hit& hit) const;
   glm::dvec2 moved_by_step(const Slot& slot, const Hit& hit, const Ray& ray) const;
-  LodInterval lod_interval(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
+  glm::dvec3 weights_beside(const Hit& hit, const Ray& ray, double dx, double dy, bool& beyond) const;
+  double level(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec4 read(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec3 mapped_normal(const Slot& slot, double scale, const glm::dvec3& normal, const Hit& hit, const Footprint& footprint) const;
   glm::dvec3 interpolated_normal(const Hit& hit) const;

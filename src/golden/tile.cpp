@@ -19,10 +19,6 @@ glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
   return {c.r, c.g, c.b};
 }
 
-/// Texels by which a driver's choice may be off for the corners of the step to show all that it may find.
-constexpr double most_texels = 0.5;
-const std::array<glm::dvec2, 4> nudges{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
-
 }  // namespace
 
 void Tile::add_layer(const Hit& hit, const Ray& ray, LodChoice lod) {
@@ -63,46 +59,6 @@ void Tile::add_sample_with_tie(Seen& seen, const Ray& ray) {
   seen.nearest = nearest;
 }
 
-// Whether another surface, or none, is met within the step: another number of layers, or a depth that neither triangle's slope explains.
-// Across an edge that two triangles share, their planes meet within the step, so the gap between them is at most what both depths change.
-bool Tile::interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const {
-  if (centre.nearest.has_value() != seen.nearest.has_value() || centre.blended.size() != seen.blended.size()) {
-    return true;
-  }
-  if (!centre.nearest || centre.nearest->triangle == seen.nearest->triangle) {
-    return false;
-  }
-  const std::optional<Hit> ours_there = frame_.geometry.meet(centre.nearest->triangle, ray);
-  const std::optional<Hit> theirs_here = frame_.geometry.meet(seen.nearest->triangle, centre_ray);
-  if (!ours_there || !theirs_here) {
-    return true;
-  }
-  const double change = std::abs(ours_there->t - centre.nearest->t) + std::abs(seen.nearest->t - theirs_here->t);
-  // Twice: several small triangles may lie between the two.
-  return std::abs(seen.nearest->t - ours_there->t) > 2.0 * change + 1e-7 * std::abs(centre.nearest->t);
-}
-
-// The centre's own triangles, carried on to where another ray meets their planes.
-Seen Tile::extended(const Seen& centre, const Ray& ray) const {
-  const auto carry_on = [&](const Hit& hit) {
-    Hit carried = hit;
-    if (const std::optional<Hit> met = frame_.geometry.meet(hit.triangle, ray)) {
-      // A sliver's weights grow without limit; beyond its own size it is no longer what a rasteriser could show.
-      const glm::dvec3 w = glm::clamp(met->weights, -1.0, 2.0);
-      carried.weights = {1.0 - w.y - w.z, w.y, w.z};
-    }
-    return carried;
-  };
-  Seen out;
-  if (centre.nearest) {
-    out.nearest = carry_on(*centre.nearest);
-  }
-  for (const Hit& hit : centre.blended) {
-    out.blended.push_back(carry_on(hit));
-  }
-  return out;
-}
-
 // What is seen at the levels of detail that OpenGL ES allows each texture of each layer.
 void Tile::add_levels(const Seen& seen, const Ray& ray) {
   const auto add = [&](const Hit& hit) {
@@ -126,27 +82,16 @@ void Tile::add_levels(const Seen& seen, const Ray& ray) {
   std::for_each(seen.blended.begin(), seen.blended.end(), add);
 }
 
-void Tile::add_shifted(Plan& plan) {
-  const double step = std::ldexp(1.0, -frame_.settings.subpixel_bits);
-  Look& centre = looks_[0];
-  for (std::size_t corner = 0; corner < 4; ++corner) {
-    const double dx = (corner & 1u) != 0 ? step : -step;
-    const double dy = (corner & 2u) != 0 ? step : -step;
-    Look& look = looks_[corner + 1];
-    look.ray = frame_.rays.through(centre.ray.x + dx, centre.ray.y + dy);
-    frame_.tracer.trace(look.ray, true, look.seen);
-    if (centre.seen.empty() && look.seen.empty() && !shows_background()) {
-      continue;
+void Tile::add_shifted() {
+  for (std::size_t corner = 1; corner < looks_.size(); ++corner) {
+    Look& look = looks_[corner];
+    if (!looks_[0].seen.empty() || !look.seen.empty() || shows_background()) {
+      add_sample_with_tie(look.seen, look.ray);
     }
-    if (look.seen.tie || interrupted(centre.ray, centre.seen, look.ray, look.seen)) {
-      plan.excluded = Exclusion::Surface;
-    }
-    add_sample_with_tie(look.seen, look.ray);
   }
 }
 
-// A driver whose grid moves an edge past a sample shades that sample with the triangles of the other side, carried on beyond the edge: all
-// that any of the looks meets, at every one of them.
+// The same triangles for the light of an environment, of which only samples tell what it is: at every look.
 void Tile::add_carried_on() {
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     const Seen& seen = looks_[k].seen;
@@ -163,68 +108,22 @@ void Tile::add_carried_on() {
 
 // What is seen where the rounding of texture coordinates leads, if that is farther than the corners of the step. False where coordinates
 // may lie so far off that corners show but some of the texels between them: a texture without mipmaps seen from far.
-bool Tile::add_nudged() {
+bool Tile::add_nudged(bool samples) {
   const Look& centre = looks_[0];
   const auto add = [&](const Hit& hit) {
     const TextureReach reach = frame_.reader.texture_reach(hit, centre.ray);
-    if (reach.beyond_the_step) {
+    if (samples && reach.beyond_the_step) {
       for (const glm::dvec2& nudge : nudges) {
         add_sample(centre.seen, centre.ray, {std::nullopt, 0, nudge}, &hit);
       }
     }
-    return reach.texels <= most_texels;
+    return reach.texels <= (samples ? most_texels_of_corners : most_texels);
   };
   bool sampled = !centre.seen.nearest || add(*centre.seen.nearest);
   for (const Hit& hit : centre.seen.blended) {
     sampled = add(hit) && sampled;
   }
   return sampled;
-}
-
-// Whether an earlier look meets the same triangles.
-bool Tile::seen_before(std::size_t look) const {
-  const auto last = looks_.begin() + static_cast<std::ptrdiff_t>(look);
-  return std::any_of(looks_.begin(), last, [&](const Look& earlier) { return earlier.seen.same_triangles(looks_[look].seen); });
-}
-
-// Whether a MASK surface in front may be kept or discarded: within the step, its triangle carried on, or by the freedom in the level of
-// detail.
-bool Tile::mask_uncertain() const {
-  constexpr std::size_t base_color = 0;
-  std::vector<std::uint32_t> judged;
-  for (const Look& met : looks_) {
-    for (const Hit& hit : met.seen.masked) {
-      if (std::find(judged.begin(), judged.end(), hit.triangle) != judged.end()) {
-        continue;
-      }
-      judged.push_back(hit.triangle);
-      const double cutoff = frame_.geometry.placed(hit.triangle).material->alpha_cutoff;
-      Seen alone;
-      alone.nearest = hit;
-      const bool kept = frame_.reader.opacity(hit, met.ray) >= cutoff;
-      const TextureReach reach = frame_.reader.texture_reach(hit, met.ray);
-      if (reach.texels > most_texels) {
-        return true;
-      }
-      for (const glm::dvec2& nudge : nudges) {
-        if (reach.beyond_the_step && (frame_.reader.opacity(hit, met.ray, {std::nullopt, 0, nudge}) >= cutoff) != kept) {
-          return true;
-        }
-      }
-      for (const Look& look : looks_) {
-        const Hit there = *extended(alone, look.ray).nearest;
-        if ((frame_.reader.opacity(there, look.ray) >= cutoff) != kept) {
-          return true;
-        }
-        for (const double level : frame_.reader.levels_to_try(there, look.ray, base_color)) {
-          if ((frame_.reader.opacity(there, look.ray, {level, base_color}) >= cutoff) != kept) {
-            return true;
-          }
-        }
-      }
-    }
-  }
-  return false;
 }
 
 Tile::Plan Tile::plan(int x, int y) {
@@ -234,16 +133,23 @@ Tile::Plan Tile::plan(int x, int y) {
   frame_.tracer.trace(centre.ray, bounds, centre.seen);
   const auto groups = static_cast<std::uint32_t>(lod_group_ends_.size());
   const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(frame_.settings.view.width) + static_cast<std::uint64_t>(x);
-  Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, centre.seen.tie ? Exclusion::Surface : Exclusion::None};
+  const Exclusion tied = centre.seen.tie ? Exclusion::Surface : Exclusion::None;
+  Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, tied, {}};
   if (!bounds) {
     add_sample(centre.seen, centre.ray);
     plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
     return plan;
   }
-  add_sample_with_tie(centre.seen, centre.ray);
-  add_shifted(plan);
-  add_carried_on();
-  const bool sampled = add_nudged();
+  look_around(plan);
+  plan.enclosed = enclose();
+  if (has_environment()) {
+    add_sample_with_tie(centre.seen, centre.ray);
+    add_shifted();
+    add_carried_on();
+  } else {
+    add_sample(centre.seen, centre.ray);
+  }
+  const bool sampled = add_nudged(has_environment());
   plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
   if (plan.excluded == Exclusion::None) {
     plan.excluded = mask_uncertain() ? Exclusion::Mask : sampled ? Exclusion::None : Exclusion::Texels;
@@ -282,9 +188,7 @@ void Tile::add_uniform_light(const std::uint32_t* order, std::size_t count, cons
   const glm::dvec3 uniform = frame_.settings.environment->uniform;
   for (std::size_t i = 0; i < count; ++i) {
     const Shaded<double> more = shade_uniform(surfaces_[order[i]], layers, lighting, {uniform.x, uniform.y, uniform.z});
-    Shaded<double>& shaded = shaded_[order[i]];
-    shaded.radiance = shaded.radiance + more.radiance;
-    shaded.magnitude = shaded.magnitude + more.magnitude;
+    shaded_[order[i]].radiance = shaded_[order[i]].radiance + more.radiance;
   }
 }
 
@@ -292,7 +196,7 @@ void Tile::add_uniform_light(const std::uint32_t* order, std::size_t count, cons
 Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
   Composed out;
   if (shows_background()) {
-    out.radiance = out.magnitude = sample.background;
+    out.radiance = sample.background;
     out.coverage = 1.0;
   }
   for (std::uint32_t i = sample.first; i < sample.first + sample.count; ++i) {
@@ -305,7 +209,6 @@ Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
       out.standard_error = dvec3(standard_error_[surface]) * a + out.standard_error * (1.0 - a);
     }
     out.radiance = (dvec3(s.radiance) + from_image) * a + out.radiance * (1.0 - a);
-    out.magnitude = (dvec3(s.magnitude) + glm::abs(from_image)) * a + out.magnitude * (1.0 - a);
     out.lookup = dvec3(s.lookup) * a + out.lookup * (1.0 - a);
     out.coverage = a + out.coverage * (1.0 - a);
     out.mirrored = out.mirrored || s.mirrored > 0.0;
@@ -345,13 +248,14 @@ Pixel Tile::finish(const Plan& plan) const {
   pixel.radiance = full.radiance;
   pixel.coverage = centre.coverage;
   pixel.standard_error = full.standard_error;
-  const glm::dvec4 moved = shift + lod;
-  pixel.bound =
-      full.magnitude * relative_tolerance + absolute_tolerance + glm::dvec3(moved) + centre.lookup + standard_errors * full.standard_error;
-  // No surface and an opaque one cover exactly 0 and 1.
-  const bool whole = centre.coverage == 0.0 || centre.coverage == 1.0;
-  pixel.coverage_bound = (whole ? 0.0 : centre.coverage * relative_tolerance + absolute_tolerance) + moved.w;
+  const glm::dvec4 open = plan.enclosed.deviation + shift + lod;
+  pixel.bound = glm::dvec3(open) + centre.lookup + standard_errors * full.standard_error;
+  pixel.coverage_bound = shows_background() ? 0.0 : open.w;
   pixel.excluded = plan.excluded;
+  const bool promised = std::isfinite(open.x) && std::isfinite(open.y) && std::isfinite(open.z) && std::isfinite(open.w);
+  if (!promised && pixel.excluded == Exclusion::None) {
+    pixel.excluded = Exclusion::Rules;
+  }
   pixel.mirrored = centre.mirrored;
   return pixel;
 }

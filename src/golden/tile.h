@@ -7,6 +7,7 @@
 
 #include "golden/environment_shade.h"
 #include "golden/frame.h"
+#include "golden/pixel_bound.h"
 #include "golden/shade.h"
 
 namespace sheen::golden {
@@ -17,6 +18,7 @@ enum class Exclusion {
   Surface = 1,  ///< another surface, or none, within the step
   Mask = 2,     ///< an alpha mask that a moved sample or another level of detail decides otherwise
   Texels = 3,   ///< a texture without mipmaps whose texel a moved sample may choose freely
+  Rules = 4,    ///< the rules of GLSL ES promise nothing for an operation there
 };
 
 /// One pixel of a golden.
@@ -30,16 +32,21 @@ struct Pixel {
   bool mirrored = false;
 };
 
-/// Tolerance of the shading itself, not yet derived from the rules of GLSL ES: a share of the value and a floor in its unit.
-inline constexpr double relative_tolerance = 1e-3;
-inline constexpr double absolute_tolerance = 2e-5;
+/// Texels of a texture without mipmaps by which a driver's choice may be off for the bound to hold all that it may find: sample_box() looks
+/// at every edge of a box of 16, and under an environment, and at masks, corners alone are looked at, which must see all texels.
+inline constexpr double most_texels = 8.0;
+inline constexpr double most_texels_of_corners = 0.5;
+/// Of texture coordinates, as LodChoice has them.
+inline const std::array<glm::dvec2, 4> nudges{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
+
 /// Of the light of an image, in the bound: a normal deviate passes five once in 1.7 million.
 inline constexpr double standard_errors = 5.0;
 
 /// A few pixels worked out together: first every ray is cast and every surface read, then all are shaded in batches, then composed.
 class Tile {
  public:
-  explicit Tile(const Frame& frame) : frame_(frame) {}
+  /// @param bound  needed if the frame's settings ask for bounds
+  Tile(const Frame& frame, const PixelBound* bound) : frame_(frame), bound_(bound) {}
 
   /// The pixels [x0, x1) x [y0, y1), row by row.
   std::vector<Pixel> render(int x0, int y0, int x1, int y1);
@@ -57,17 +64,20 @@ class Tile {
     std::uint64_t pixel;
     std::uint32_t centre, shifted_end, first_group, last_group;
     Exclusion excluded;
+    Enclosed enclosed;  // with bounds: light but an environment's, and coverage
   };
   struct Composed {
-    glm::dvec3 radiance{0.0}, magnitude{0.0}, lookup{0.0}, standard_error{0.0};
+    glm::dvec3 radiance{0.0}, lookup{0.0}, standard_error{0.0};
     double coverage = 0.0;
     bool mirrored = false;
   };
 
   Plan plan(int x, int y);
-  void add_shifted(Plan& plan);
+  void look_around(Plan& plan);
+  Enclosed enclose() const;
+  void add_shifted();
   void add_carried_on();
-  bool add_nudged();
+  bool add_nudged(bool samples);
   bool seen_before(std::size_t look) const;
   bool mask_uncertain() const;
   void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {}, const Hit* varied = nullptr);
@@ -75,6 +85,7 @@ class Tile {
   void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
   bool interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const;
   Seen extended(const Seen& centre, const Ray& ray) const;
+  bool has_environment() const { return frame_.settings.environment != nullptr; }
   bool shows_background() const;
   glm::dvec3 background(const Ray& ray) const;
   void add_levels(const Seen& seen, const Ray& ray);
@@ -94,6 +105,7 @@ class Tile {
   };
 
   const Frame& frame_;
+  const PixelBound* bound_;
   CurveCache curves_;
   std::array<Look, 5> looks_;
   std::vector<Surface<double>> surfaces_;

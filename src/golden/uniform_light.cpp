@@ -189,7 +189,7 @@ Shaded<double> shade_uniform(const Surface<double>& surface, Layers layers, cons
   const Color cloth = sheen_light * light * (1 - k);
   const double coat_light = layers.clearcoat ? k * factors.coat_lobe * base_integrals(surface.coat_alpha, coat.n_dot_v, one).specular : 0.0;
   const Color zero{0, 0, 0};
-  return {under + cloth + light * coat_light, absolute(under) + cloth + light * coat_light, zero, 0.0};
+  return {under + cloth + light * coat_light, zero, 0.0};
 }
 
 }  // namespace sheen::golden

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <exception>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <ImfThreading.h>
 
 #include "image/encode.h"
 
@@ -35,6 +37,16 @@ class MemoryStream : public Imf::OStream {
   std::size_t at_ = 0;
 };
 
+/// How many threads the library's own pool has from now on: as many as the machine. Without this it has none.
+int pool_of_threads() {
+  static const int count = [] {
+    const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    Imf::setGlobalThreadCount(threads);
+    return threads;
+  }();
+  return count;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode_exr(const Image& image, ExrCompression compression) {
@@ -51,7 +63,7 @@ std::vector<std::uint8_t> encode_exr(const Image& image, ExrCompression compress
     }
     MemoryStream stream;
     {
-      Imf::OutputFile file(stream, header);
+      Imf::OutputFile file(stream, header, pool_of_threads());
       file.setFrameBuffer(pixels);
       file.writePixels(image.height);
     }  // its destructor writes the table of lines

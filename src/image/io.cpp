@@ -80,7 +80,7 @@ void expand_grey(RawPicture& raw) {
 }
 
 /// R, G, B, A first, the others after them in the file's order.
-Image in_order(const RawPicture& raw) {
+Image in_order(RawPicture raw) {
   std::vector<std::size_t> order;
   for (const char* name : {"R", "G", "B", "A"}) {
     const auto at = std::find(raw.channels.begin(), raw.channels.end(), name);
@@ -97,6 +97,14 @@ Image in_order(const RawPicture& raw) {
   names.reserve(order.size());
   for (const std::size_t c : order) {
     names.push_back(raw.channels[c]);
+  }
+  if (std::is_sorted(order.begin(), order.end())) {
+    Image image;
+    image.width = raw.width;
+    image.height = raw.height;
+    image.channels = std::move(names);
+    image.data = std::move(raw.values);
+    return image;
   }
   Image image(raw.width, raw.height, std::move(names));
   const std::size_t channels = order.size();
@@ -156,7 +164,7 @@ Image decode_with(Decode decode, const std::filesystem::path& file) {
   if (raw.bits != 0) {
     decode_codes(raw);
   }
-  return in_order(raw);
+  return in_order(std::move(raw));
 }
 
 void require_sound(const std::filesystem::path& file, const Image& image) {

@@ -4,23 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "number/lanes.h"
 #include "number/precision.h"
+#include "number/truth.h"
 
 namespace sheen::number {
-
-/// What a comparison of uncertain values says: what it is for their centres, and whether every conforming implementation agrees.
-class Truth {
- public:
-  constexpr Truth(bool at_center, bool certain) : at_center_(at_center), certain_(certain) {}
-
-  constexpr bool is_true() const { return certain_ && at_center_; }
-  constexpr bool is_false() const { return certain_ && !at_center_; }
-  constexpr bool is_either() const { return !certain_; }
-  constexpr bool at_center() const { return at_center_; }
-
- private:
-  bool at_center_, certain_;
-};
 
 /// A closed range of numbers.
 struct Range {
@@ -219,28 +207,20 @@ class Bounded {
     // Of the exact result too, the form and the range each know what the other does not.
     const double reach = (b.displacement() + x.radius) * (1 + 0x1p-48) + std::abs(x.center) * 0x1p-50;
     const Range exact{std::max(x.range.lower, x.center - reach), std::min(x.range.upper, x.center + reach)};
-    double added = error.at(exact.magnitude());
-    b.range_ = {below(exact.lower - added), above(exact.upper + added)};
-    if (!(exact.upper <= 2 * exact.lower)) {
-      // A wide range, or not a positive one. Of an end that faces zero, the worst result may come of an exact one further inside, beyond a
-      // power of two, where an ulp is larger; of the other end, it is that of the end.
-      const auto slack = [&](double end, bool faces_zero) { return std::min(added, faces_zero ? error.smoothly(end) : error.at(end)); };
-      b.range_ = {below(exact.lower - slack(exact.lower, exact.lower > 0)), above(exact.upper + slack(exact.upper, exact.upper < 0))};
-      if (keeps_sign && exact.lower >= 0) b.range_.lower = std::max(b.range_.lower, 0.0);
-      if (keeps_sign && exact.upper <= 0) b.range_.upper = std::min(b.range_.upper, 0.0);
+    const double smallest = std::max(exact.lower, -exact.upper);
+    const double largest = std::max(-exact.lower, exact.upper);
+    const double added = error.at(largest);
+    // Most results: of one sign, within a factor of two, far from either end of the format.
+    const bool narrow = largest <= 2 * smallest;
+    if (narrow && added <= 0.5 * smallest && smallest >= 2 * smallest_normal<Precision> && largest <= 0.5 * largest_finite<Precision> &&
+        x.radius <= largest) {
+      b.range_ = {below(exact.lower - added), above(exact.upper + added)};
+      // Over so small a range the products of radii are nothing beside it.
+      b.settle(x.radius, added, reach > 0x1p-8 * largest);
+    } else {
+      b.round_with_care(x, exact, error, added, narrow, keeps_sign);
     }
-    if (b.range_.lower < smallest_normal<Precision> && b.range_.upper > -smallest_normal<Precision>) {
-      added = std::max(added, std::min(exact.magnitude(), smallest_normal<Precision> + added));
-      b.range_ = {std::min(b.range_.lower, 0.0), std::max(b.range_.upper, 0.0)};
-    }
-    // A few roundings of double, in the centre and in what was computed on the way here, are far below the last factor's room.
-    b.radius_ = (x.radius + added) * (1 + 0x1p-40) + (std::abs(x.center) + b.displacement()) * 0x1p-50;
-    // The radius is infinite or NaN if anything before it was.
-    const bool finite = b.is_bounded() && b.range_.lower >= -largest_finite<Precision> && b.range_.upper <= largest_finite<Precision>;
-    if (!finite) return unbounded(x.center);
-    // What was flushed, or overestimated by products of radii, lies no farther off than the range's ends.
-    b.radius_ = std::min(b.radius_, (std::max(b.range_.upper - b.center_, b.center_ - b.range_.lower) + b.displacement()) * (1 + 0x1p-50));
-    return b;
+    return b;  // made in its place: a copy would wait for each member to be stored
   }
 
   /// The neighbouring double on the side away from or toward minus infinity, or one a little beyond: encloses what was rounded once.
@@ -248,6 +228,39 @@ class Bounded {
   static double below(double x) { return x - std::abs(x) * 0x1p-52; }
 
  private:
+  /// The radius from the exact result's and what is added to it. A few roundings of double, in the centre and in what was computed on the
+  /// way here, are far below the factors' room; and what was overestimated by products of radii lies no farther off than the range's ends.
+  void settle(double exact_radius, double added, bool clip) {
+    radius_ = (exact_radius + added) * (1 + 0x1p-40) + (std::abs(center_) + displacement()) * 0x1p-50;
+    if (clip) radius_ = std::min(radius_, (std::max(range_.upper - center_, center_ - range_.lower) + displacement()) * (1 + 0x1p-50));
+  }
+
+  /// rounded() where a range is wide, touches zero, or nears an end of the format.
+  [[gnu::noinline]] void round_with_care(const Exact& x, const Range& exact, const Error& error, double added, bool narrow,
+                                         bool keeps_sign) {
+    range_ = {below(exact.lower - added), above(exact.upper + added)};
+    if (!narrow) {
+      // Of an end that faces zero, the worst result may come of an exact one further inside, beyond a power of two, where an ulp is larger;
+      // of the other end, it is that of the end.
+      const auto slack = [&](double end, bool faces_zero) { return std::min(added, faces_zero ? error.smoothly(end) : error.at(end)); };
+      range_ = {below(exact.lower - slack(exact.lower, exact.lower > 0)), above(exact.upper + slack(exact.upper, exact.upper < 0))};
+      if (keeps_sign && exact.lower >= 0) range_.lower = std::max(range_.lower, 0.0);
+      if (keeps_sign && exact.upper <= 0) range_.upper = std::min(range_.upper, 0.0);
+    }
+    if (range_.lower < smallest_normal<Precision> && range_.upper > -smallest_normal<Precision>) {
+      added = std::max(added, std::min(exact.magnitude(), smallest_normal<Precision> + added));
+      range_ = {std::min(range_.lower, 0.0), std::max(range_.upper, 0.0)};
+    }
+    // The radius is infinite or NaN if anything before it was.
+    const bool finite = x.radius + added < std::numeric_limits<double>::infinity() && range_.lower >= -largest_finite<Precision> &&
+                        range_.upper <= largest_finite<Precision>;
+    if (finite) {
+      settle(x.radius, added, true);
+    } else {
+      *this = unbounded(center_);
+    }
+  }
+
   static Bounded exactly(double value) {
     Bounded b;
     b.center_ = value;
@@ -305,8 +318,18 @@ class Bounded {
   static double product_below(double a, double b) { return is_exact_product(a, b) ? a * b : below(a * b); }
   static double product_above(double a, double b) { return is_exact_product(a, b) ? a * b : above(a * b); }
 
+  /// Whether a range keeps to one side of zero; then its magnitudes run from the smaller end's to the larger's.
+  static bool is_negative(const Range& x) { return x.upper <= 0; }
+  static bool has_one_sign(const Range& x) { return x.lower >= 0 || x.upper <= 0; }
+  static Range magnitudes(const Range& x) { return is_negative(x) ? Range{-x.upper, -x.lower} : x; }
+  static Range with_sign(bool negative, const Range& x) { return negative ? Range{-x.upper, -x.lower} : x; }
+
   static Range product(const Range& a, const Range& b) {
-    if (a.lower >= 0 && b.lower >= 0) return {product_below(a.lower, b.lower), product_above(a.upper, b.upper)};
+    if (has_one_sign(a) && has_one_sign(b)) {
+      const Range x = magnitudes(a);
+      const Range y = magnitudes(b);
+      return with_sign(is_negative(a) != is_negative(b), {product_below(x.lower, y.lower), product_above(x.upper, y.upper)});
+    }
     return {std::min(std::min(product_below(a.lower, b.lower), product_below(a.lower, b.upper)),
                      std::min(product_below(a.upper, b.lower), product_below(a.upper, b.upper))),
             std::max(std::max(product_above(a.lower, b.lower), product_above(a.lower, b.upper)),
@@ -323,7 +346,11 @@ class Bounded {
     const auto exact = [](double x, double y) { return has_no_fraction(x / y) && (x / y) * y == x; };
     const auto under = [&](double x, double y) { return exact(x, y) ? x / y : below(x / y); };
     const auto over = [&](double x, double y) { return exact(x, y) ? x / y : above(x / y); };
-    if (a.lower >= 0 && b.lower > 0) return {under(a.lower, b.upper), over(a.upper, b.lower)};
+    if (has_one_sign(a)) {
+      const Range x = magnitudes(a);
+      const Range y = magnitudes(b);
+      return with_sign(is_negative(a) != is_negative(b), {under(x.lower, y.upper), over(x.upper, y.lower)});
+    }
     return {
         std::min(std::min(under(a.lower, b.lower), under(a.lower, b.upper)), std::min(under(a.upper, b.lower), under(a.upper, b.upper))),
         std::max(std::max(over(a.lower, b.lower), over(a.lower, b.upper)), std::max(over(a.upper, b.lower), over(a.upper, b.upper)))};
@@ -341,6 +368,12 @@ class Bounded {
 
   double center_ = 0, shift_x_ = 0, shift_y_ = 0, radius_ = 0;
   Range range_ = {0, 0};
+};
+
+template <class Precision>
+struct Lanes<Bounded<Precision>> {
+  static constexpr std::size_t count = 1;
+  static Bounded<Precision> load(const double* values) { return Bounded<Precision>(*values); }
 };
 
 /// The value as a variable of another precision holds it: correctly rounded, from mediump to highp exact.

@@ -7,7 +7,13 @@
 namespace sheen::renderer {
 namespace {
 
-const std::string& file_text(const std::string& name) {
+const std::string& file_text(const std::string& name, const Settings& settings) {
+  if (settings.shader_files != nullptr) {
+    const auto stand_in = settings.shader_files->find(name);
+    if (stand_in != settings.shader_files->end()) {
+      return stand_in->second;
+    }
+  }
   const auto found = shader_sources().find(name);
   if (found == shader_sources().end()) {
     throw std::logic_error("no shader file " + name);
@@ -31,7 +37,7 @@ std::string header(const ShaderPlan& plan) {
 }  // namespace
 
 ShaderText assemble(const ShaderPlan& plan, const Settings& settings) {
-  ShaderText text{header(plan) + file_text(plan.vertex_file), header(plan)};
+  ShaderText text{header(plan) + file_text(plan.vertex_file, settings), header(plan)};
   bool mediump = false;
   for (const ShaderFile& file : plan.fragment_files) {
     const bool wanted = file.shading && settings.precision == Precision::Mediump;
@@ -39,7 +45,7 @@ ShaderText assemble(const ShaderPlan& plan, const Settings& settings) {
       text.fragment += wanted ? "precision mediump float;\n" : "precision highp float;\n";
     }
     mediump = wanted;
-    text.fragment += "// " + file.name + "\n" + file_text(file.name);
+    text.fragment += "// " + file.name + "\n" + file_text(file.name, settings);
   }
   return text;
 }

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <system_error>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <glm/vec4.hpp>
 
 #include "albedo/split_sum.h"
-#include "image/io.h"
 #include "renderer/environment_points.h"
 #include "renderer/textures.h"
+#include "renderer/unfiltered_texture.h"
 
 namespace sheen::renderer {
 namespace {
-
-// Counts on when what lies in the folder is made in another way.
-constexpr const char* version = "1";
 
 // shaders/environment_prefiltered.glsl: where the kernels' maps stand below the image, and how much room they take.
 constexpr int sheen_column = 256;
@@ -37,27 +35,49 @@ int column_of(Kernel kernel) {
   }
 }
 
-/// A picture being put together of others.
-struct Sheet {
-  int width, height;
-  std::vector<glm::vec4> texels;
+/// An RGBA32F texture that is put together of pictures.
+class Sheet {
+ public:
+  Sheet(const gles::Functions& gl, std::string what, int width, int height)
+      : gl_(gl), what_(std::move(what)), texture_(unfiltered_texture(gl, what_, GL_RGBA32F, GL_RGBA, GL_FLOAT, width, height, nullptr)) {}
 
-  Sheet(int width_, int height_)
-      : width(width_), height(height_), texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), glm::vec4(0.0F)) {}
-  glm::vec4& at(int x, int y) {
-    return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-  }
-};
-
-Sheet sheet_with(const scene::Environment& environment, int width, int height) {
-  Sheet sheet(std::max(width, environment.width), environment.height + height);
-  auto texel = environment.texels.begin();
-  for (int y = 0; y < environment.height; ++y) {
-    for (int x = 0; x < environment.width; ++x) {
-      sheet.at(x, y) = glm::vec4(*texel++, 1.0F);
+  /// The texels that texel(x, y) gives, from (left, top) on.
+  template <class Texel>
+  void put(int left, int top, int width, int height, const Texel& texel) {
+    constexpr int band = 32;  // rows: of an image of 4,096 columns, two megabytes
+    std::vector<glm::vec4> texels;
+    for (int first = 0; first < height; first += band) {
+      const int rows = std::min(band, height - first);
+      texels.clear();
+      for (int y = first; y < first + rows; ++y) {
+        for (int x = 0; x < width; ++x) {
+          texels.push_back(texel(x, y));
+        }
+      }
+      gl_.TexSubImage2D(GL_TEXTURE_2D, 0, left, top + first, width, rows, GL_RGBA, GL_FLOAT, texels.data());
     }
   }
-  return sheet;
+
+  /// The first three channels of a picture.
+  void put(int left, int top, const image::Image& picture) {
+    put(left, top, picture.width, picture.height,
+        [&](int x, int y) { return glm::vec4(picture.at(x, y, 0), picture.at(x, y, 1), picture.at(x, y, 2), 1.0F); });
+  }
+
+  /// Throws gles::Error where anything went wrong.
+  gles::Texture take() {
+    gles::check(gl_, "uploading " + what_);
+    return std::move(texture_);
+  }
+
+ private:
+  const gles::Functions& gl_;
+  std::string what_;
+  gles::Texture texture_;  // stays bound
+};
+
+std::size_t texel_index(const scene::Environment& environment, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(environment.width) + static_cast<std::size_t>(x);
 }
 
 image::Image build_split_sums() {
@@ -85,40 +105,13 @@ image::Image build_split_sums() {
 }  // namespace
 
 template <class Make>
-GLuint EnvironmentMaps::keep(Kept& kept, const std::string& key, const Make& make) {
-  if (!kept.texture || kept.key != key) {
-    kept.texture.reset();
-    kept.texture.emplace(make());
-    kept.key = key;
+GLuint EnvironmentMaps::hold(Held& held, const std::string& key, const Make& make) {
+  if (!held.texture || held.key != key) {
+    held.texture.reset();
+    held.texture.emplace(make());
+    held.key = key;
   }
-  return kept.texture->name();
-}
-
-/// The picture of that name in the folder or, where there is none of that size, a new one, which is then put there.
-template <class Make>
-image::Image EnvironmentMaps::from_folder(const std::string& name, int width, int height, const Make& make) const {
-  const std::filesystem::path file = folder_ / (name + "." + version + ".pfm");
-  std::error_code error;
-  if (!folder_.empty() && std::filesystem::is_regular_file(file, error)) {
-    try {
-      image::Image found = image::read(file);
-      if (found.width == width && found.height == height) {
-        return found;
-      }
-    } catch (const image::Error&) {
-      // Damaged: made anew.
-    }
-  }
-  image::Image made = make();
-  if (!folder_.empty()) {
-    std::filesystem::create_directories(folder_, error);
-    try {
-      image::write(file, made);
-    } catch (const image::Error&) {
-      // A folder that cannot be written costs the next program the time, nothing else.
-    }
-  }
-  return made;
+  return held.texture->name();
 }
 
 GLuint EnvironmentMaps::prefiltered(const scene::Environment& environment, const std::vector<Kernel>& kernels) {
@@ -127,37 +120,38 @@ GLuint EnvironmentMaps::prefiltered(const scene::Environment& environment, const
   for (const Kernel kernel : kernels) {
     key += std::string(" ") + kernel_name(kernel);
   }
-  return keep(image_, key, [&] {
-    Sheet sheet = sheet_with(environment, maps_width, maps_height);
+  return hold(image_, key, [&] {
+    std::vector<image::Image> maps;  // filtering binds textures of its own
     for (const Kernel kernel : kernels) {
       const FilteredPart last = filtered_parts(kernel).back();
-      const int width = filtered_parts(kernel).front().width;
-      const image::Image map = from_folder(hash + "." + kernel_name(kernel), width, last.y + last.height,
-                                           [&] { return prefilter(context_, environment, kernel); });
-      for (int y = 0; y < map.height; ++y) {
-        for (int x = 0; x < map.width; ++x) {
-          sheet.at(column_of(kernel) + x, environment.height + y) = {map.at(x, y, 0), map.at(x, y, 1), map.at(x, y, 2), 1.0F};
-        }
-      }
+      maps.push_back(kept_.get(hash + "." + kernel_name(kernel), filtered_parts(kernel).front().width, last.y + last.height,
+                               [&] { return prefilter(context_, environment, kernel); }));
     }
-    return upload_floats(context_.gl(), "the environment with its maps", sheet.width, sheet.height, sheet.texels);
+    Sheet sheet(context_.gl(), "the environment with its maps", std::max(maps_width, environment.width), environment.height + maps_height);
+    sheet.put(0, 0, environment.width, environment.height,
+              [&](int x, int y) { return glm::vec4(environment.texels[texel_index(environment, x, y)], 1.0F); });
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      sheet.put(column_of(kernels[i]), environment.height, maps[i]);
+    }
+    return sheet.take();
   });
 }
 
 GLuint EnvironmentMaps::sampled(const scene::Environment& environment) {
-  return keep(image_, scene::content_hash(environment) + " sampled", [&] {
+  return hold(image_, scene::content_hash(environment) + " sampled", [&] {
     const ImageSampling sampling(environment);
-    Sheet sheet = sheet_with(environment, 0, 0);
-    for (std::size_t i = 0; i < sheet.texels.size(); ++i) {
-      sheet.texels[i].a = sampling.densities()[i];
-    }
-    return upload_floats(context_.gl(), "the environment", sheet.width, sheet.height, sheet.texels);
+    Sheet sheet(context_.gl(), "the environment", environment.width, environment.height);
+    sheet.put(0, 0, environment.width, environment.height, [&](int x, int y) {
+      const std::size_t i = texel_index(environment, x, y);
+      return glm::vec4(environment.texels[i], sampling.densities()[i]);
+    });
+    return sheet.take();
   });
 }
 
 GLuint EnvironmentMaps::points(const scene::Environment& environment, int count, std::uint64_t seed) {
   const std::string key = scene::content_hash(environment) + " " + std::to_string(count) + " " + std::to_string(seed);
-  return keep(points_, key, [&] {
+  return hold(points_, key, [&] {
     std::optional<ImageSampling> sampling;
     if (environment.is_image()) {
       sampling.emplace(environment);
@@ -169,15 +163,11 @@ GLuint EnvironmentMaps::points(const scene::Environment& environment, int count,
 }
 
 GLuint EnvironmentMaps::split_sums() {
-  return keep(split_sums_, "split sums", [&] {
-    const image::Image table = from_folder("split-sums", split_sum_nodes, split_sum_nodes, build_split_sums);
-    Sheet sheet(table.width, table.height);
-    for (int y = 0; y < table.height; ++y) {
-      for (int x = 0; x < table.width; ++x) {
-        sheet.at(x, y) = {table.at(x, y, 0), table.at(x, y, 1), table.at(x, y, 2), 1.0F};
-      }
-    }
-    return upload_floats(context_.gl(), "the table of split sums", sheet.width, sheet.height, sheet.texels);
+  return hold(split_sums_, "split sums", [&] {
+    const image::Image table = kept_.get("split-sums", split_sum_nodes, split_sum_nodes, build_split_sums);
+    Sheet sheet(context_.gl(), "the table of split sums", table.width, table.height);
+    sheet.put(0, 0, table);
+    return sheet.take();
   });
 }
 

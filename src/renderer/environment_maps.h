@@ -1,23 +1,23 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gles/context.h"
 #include "gles/objects.h"
+#include "renderer/kept_images.h"
 #include "renderer/prefilter.h"
 #include "scene/environment.h"
 
 namespace sheen::renderer {
 
 /// The textures that shaders read an environment from; each is made when first asked for and kept until another takes its place. The
-/// filtered maps and the split sums are also kept in a folder, under a hash of the image.
+/// filtered maps and the split sums are also kept on disk, under a hash of the image.
 class EnvironmentMaps {
  public:
-  /// @param folder  where filtered maps outlive the program; empty: nowhere. One that cannot be written costs time alone.
-  EnvironmentMaps(gles::Context& context, std::filesystem::path folder) : context_(context), folder_(std::move(folder)) {}
+  /// @param kept  where filtered maps outlive the program; must outlive this.
+  EnvironmentMaps(gles::Context& context, const KeptImages& kept) : context_(context), kept_(kept) {}
 
   /// RGBA32F: the image, below it its maps filtered by the kernels given.
   GLuint prefiltered(const scene::Environment& environment, const std::vector<Kernel>& kernels);
@@ -29,18 +29,16 @@ class EnvironmentMaps {
   GLuint split_sums();
 
  private:
-  struct Kept {
+  struct Held {
     std::string key;
     std::optional<gles::Texture> texture;
   };
   template <class Make>
-  static GLuint keep(Kept& kept, const std::string& key, const Make& make);
-  template <class Make>
-  image::Image from_folder(const std::string& name, int width, int height, const Make& make) const;
+  static GLuint hold(Held& held, const std::string& key, const Make& make);
 
   gles::Context& context_;
-  std::filesystem::path folder_;
-  Kept image_, points_, split_sums_;
+  const KeptImages& kept_;
+  Held image_, points_, split_sums_;
 };
 
 }  // namespace sheen::renderer

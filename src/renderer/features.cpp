@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "renderer/feature_words.h"
+#include "renderer/picture_texture.h"
 #include "renderer/shading.h"
 #include "renderer/texture_slots.h"
 
@@ -147,10 +148,13 @@ class Planner {
   void texture(const TextureUse& use) {
     const std::string macro = upper(use.name);
     const std::string coordinates = "v_texcoord_" + std::to_string(use.info->texcoord);
-    const scene::Sampler& sampler = scene_.textures.at(static_cast<std::size_t>(use.info->texture)).sampler;
+    const scene::Texture& source = scene_.textures.at(static_cast<std::size_t>(use.info->texture));
+    const scene::Sampler& sampler = source.sampler;
+    const Storage storage = storage_of(scene_.pictures.at(static_cast<std::size_t>(source.picture)), use.space);
     feature(use.name);
     define(macro);
     uniform("u_" + use.name);
+    uniform("u_" + use.name + "_size");
     if (use.transformed) {
       feature("texture_transform");
       define(macro + "_TRANSFORM");
@@ -159,10 +163,10 @@ class Planner {
     } else {
       define(macro + "_UV=" + coordinates);
     }
-    std::string state;
+    std::string state = "u_" + use.name + "_size";
     for (const int value : {static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t), static_cast<int>(sampler.mag),
-                            static_cast<int>(sampler.min), static_cast<int>(sampler.mip)}) {
-      state += (state.empty() ? "" : ", ") + std::to_string(value);
+                            static_cast<int>(sampler.min), static_cast<int>(sampler.mip), static_cast<int>(storage)}) {
+      state += ", " + std::to_string(value);
     }
     define(macro + "_SAMPLER=" + state);
     plan_.texcoords[use.info->texcoord] = true;

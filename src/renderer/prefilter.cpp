@@ -9,6 +9,7 @@
 
 #include "renderer/assembly.h"
 #include "renderer/environment_points.h"
+#include "renderer/picture_texture.h"
 #include "renderer/program.h"
 #include "renderer/shading.h"
 #include "renderer/target.h"
@@ -142,6 +143,7 @@ image::Image prefilter(gles::Context& context, const scene::Environment& environ
     const Program program(gl, assemble(plan(kernel, narrow), Settings()));
     program.use();
     program.set("u_image", 0);
+    program.set("u_image_size", glm::ivec2(environment.width, environment.height));
     program.set("u_points", 1);
     program.set("u_point_count", points);
     program.set("u_level", level);

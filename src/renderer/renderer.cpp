@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <future>
 #include <map>
 #include <optional>
@@ -14,6 +15,8 @@
 #include "renderer/environment_maps.h"
 #include "renderer/features.h"
 #include "renderer/geometry.h"
+#include "renderer/kept_images.h"
+#include "renderer/kept_table.h"
 #include "renderer/lights.h"
 #include "renderer/program.h"
 #include "renderer/target.h"
@@ -25,7 +28,7 @@ namespace {
 
 /// What outlives a scene: programs by their source, tables by their visibility, the last target and environment.
 struct Resources {
-  Resources(gles::Context& context_, std::filesystem::path cache) : context(context_), environments(context_, std::move(cache)) {}
+  Resources(gles::Context& context_, std::filesystem::path cache) : context(context_), kept(std::move(cache)) {}
 
   const Program& program(const ShaderPlan& plan, const Settings& settings) {
     const ShaderText text = assemble(plan, settings);
@@ -36,10 +39,10 @@ struct Resources {
     return programs.emplace(text.fragment + text.vertex, Program(context.gl(), text)).first->second;
   }
 
-  /// Begins to build a table that will be asked for, while the driver compiles and pictures are uploaded.
+  /// Begins to get a table that will be asked for, while the driver compiles and pictures are uploaded.
   void start_table(albedo::Visibility visibility) {
     if (!tables.contains(visibility) && !built.contains(visibility)) {
-      built.emplace(visibility, std::async(std::launch::async, albedo::build_table, visibility));
+      built.emplace(visibility, std::async(std::launch::async, kept_table, std::cref(kept), visibility));
     }
   }
 
@@ -68,12 +71,13 @@ struct Resources {
   }
 
   gles::Context& context;
+  const KeptImages kept;
   std::map<std::string, Program> programs;
   std::map<albedo::Visibility, gles::Texture> tables;
   std::map<albedo::Visibility, std::future<albedo::Table>> built;  ///< not yet uploaded
   std::optional<gles::Texture> ggx;
   std::optional<Target> target;
-  EnvironmentMaps environments;
+  EnvironmentMaps environments{context, kept};
 };
 
 /// One primitive of the scene, ready to be drawn.
@@ -267,6 +271,7 @@ class SceneDraw {
     for (std::size_t i = 0; i < textures.size(); ++i) {
       const TextureUse& use = drawable.plan.textures[i];
       bind(program, use.name, textures[i]);
+      program.set("u_" + use.name + "_size", Pictures::size(scene_, use));
       if (use.transformed) {
         program.set("u_" + use.name + "_transform", use.info->transform);
       }

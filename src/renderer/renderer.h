@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ struct Settings {
   const scene::Environment* environment = nullptr;  ///< light from everywhere; must outlive the call
   int environment_samples = 0;                      ///< directions drawn a pixel; 0: the image is filtered beforehand instead
   std::uint64_t seed = 0;                           ///< of the directions drawn
+  /// Texts that stand in for files of shaders/, by file name: how shaders are tried that this program was not built with. Null: none. Must
+  /// outlive the call. What is made of an environment beforehand, and kept, is made without them.
+  const std::map<std::string, std::string>* shader_files = nullptr;
 
   bool prefiltered() const { return environment != nullptr && environment_samples == 0; }
 };

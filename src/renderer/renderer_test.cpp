@@ -218,6 +218,17 @@ TEST_F(Rendering, AnIndexOutOfRangeIsAnErrorBeforeTheDriverSeesIt) {
   EXPECT_THROW(render(scene), scene::Error);
 }
 
+TEST_F(Rendering, ATextStandsInForAShaderFile) {
+  const std::map<std::string, std::string> files = {
+      {"main.frag", "layout(location = 0) out vec4 out_color;\nvoid main() { out_color = vec4(0.25, 0.5, 0.75, 1.0); }\n"}};
+  Settings settings;
+  settings.shader_files = &files;
+  const image::Image picture = render(square_scene(), 8, settings);
+  EXPECT_EQ(picture.at(4, 4, 0), 0.25f);
+  EXPECT_EQ(picture.at(4, 4, 2), 0.75f);
+  EXPECT_NEAR(middle(square_scene()), 1.0 / pi, 1e-6) << "and only where it is asked for";
+}
+
 TEST_F(Rendering, OsMesaAndEglAgreeBitForBit) {
   scene::Scene scene = square_scene({});
   scene::Material& material = scene.materials[0];

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include "albedo/ggx_table.h"
@@ -14,17 +15,19 @@
 
 namespace sheen::renderer {
 
-/// The pictures of one scene on the GPU as linear 32-bit floats, each decoded and uploaded once for a colour space, with mipmaps where a
-/// sampler reads them; pictures of equal texels are one (exporters write occlusion twice). The shader filters them itself.
+/// The pictures of one scene on the GPU, each uploaded once for a colour space, with mipmaps where a sampler reads them; pictures of equal
+/// texels are one (exporters write occlusion twice). The shader filters them itself.
 class Pictures {
  public:
   explicit Pictures(const gles::Functions& gl) : gl_(&gl) {}
 
-  /// Decodes and uploads what these uses need, several at a time. Throws gles::Error for one larger than the driver takes.
+  /// Uploads what these uses need, while the mipmaps of others are made. Throws gles::Error for one larger than the driver takes.
   void prepare(const scene::Scene& scene, const std::vector<TextureUse>& uses);
 
   /// The GL texture for a use that was prepared.
   GLuint texture(const scene::Scene& scene, const TextureUse& use) const;
+  /// Columns and rows of its picture.
+  static glm::ivec2 size(const scene::Scene& scene, const TextureUse& use);
 
  private:
   using Key = std::tuple<int, scene::ColorSpace, bool>;  // picture, its decoding, whether it has mipmaps
@@ -39,9 +42,6 @@ class Pictures {
 /// An RGBA32F texture that nothing filters but the shader, rows from the top. `what` names it where it is too large: gles::Error.
 gles::Texture upload_floats(const gles::Functions& gl, const std::string& what, int width, int height,
                             const std::vector<glm::vec4>& texels);
-
-/// Likewise with its mipmaps, from level 0 on, beside it, as shaders/textures.glsl reads them.
-gles::Texture upload_mipmapped(const gles::Functions& gl, const std::string& what, const std::vector<scene::Texels>& levels);
 
 /// An R32F texture of a table of E.
 gles::Texture upload_table(const gles::Functions& gl, const albedo::Table& table);

@@ -72,12 +72,12 @@ Scene load_gltf(const std::filesystem::path& file) {
   scene.materials = read_materials(root, textures, scene.warnings);
   scene.textures = textures.textures();
   const Resources resources = load_resources(root, container, file.parent_path(), textures.images());
+  const std::vector<int> images = share_images(root, resources, textures.images(), scene.textures);
   const Accessors accessors(root, resources);
   Placeables placeables;
   placeables.cameras = read_cameras(root);
   placeables.lights = read_lights(root);
-  std::future<std::vector<Picture>> pictures =
-      std::async(std::launch::async, [&] { return decode_images(root, resources, textures.images()); });
+  std::future<std::vector<Picture>> pictures = std::async(std::launch::async, [&] { return decode_images(root, resources, images); });
   placeables.meshes = read_meshes(root, accessors, scene);
   place_nodes(root, placeables, scene);
   scene.pictures = pictures.get();

@@ -36,6 +36,12 @@ class Textures {
   std::vector<int> images_;
 };
 
+/// Makes one of the images whose files hold the same bytes (exporters write occlusion twice), and lets textures refer to it.
+/// @param images  indices into the document's images, which Texture::picture counts
+/// @return  those that are left
+std::vector<int> share_images(const Element& root, const Resources& resources, const std::vector<int>& images,
+                              std::vector<Texture>& textures);
+
 /// Decodes the wanted images, several at once. Throws Error when one is neither PNG nor JPEG or cannot be decoded.
 /// @param images  indices into the document's images
 std::vector<Picture> decode_images(const Element& root, const Resources& resources, const std::vector<int>& images);

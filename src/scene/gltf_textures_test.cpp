@@ -41,6 +41,14 @@ TEST(GltfTextures, PngKeepsItsCodesOfEightAndSixteenBits) {
   EXPECT_EQ(deep.codes, sixteen);
 }
 
+TEST(GltfTextures, LargePicturesKeepEveryCode) {
+  std::vector<std::uint16_t> codes;
+  for (int i = 0; i < 61 * 47 * 4; ++i) {
+    codes.push_back(static_cast<std::uint16_t>((i * 31 + i / 251) % 256));
+  }
+  EXPECT_EQ(load(textured(png(61, 47, 8, codes))).pictures.at(0).codes, codes);
+}
+
 TEST(GltfTextures, JpegIsDecodedAndOpaque) {
   const Picture picture = load(textured(jpeg(), "image/jpeg")).pictures.at(0);
   ASSERT_EQ(picture.codes.size(), 8U * 8U * 4U);
@@ -95,6 +103,25 @@ TEST(GltfTextures, NoDamagedJpegGetsFurtherThanItsDecoder) {
       }
     }
   }
+}
+
+TEST(GltfTextures, FilesOfEqualBytesAreOnePicture) {
+  Asset asset = triangle();
+  const Bytes red = png(1, 1, 8, {255, 0, 0, 255});
+  const Bytes blue = png(1, 1, 8, {0, 0, 255, 255});
+  const char* const slots[] = {"emissiveTexture", "occlusionTexture", "normalTexture"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    asset.material()[slots[i]]["index"] = asset.add_texture(i == 1 ? blue : red);
+  }
+  const Scene scene = load(asset);
+  const auto red_of = [&](const TextureInfo& info) {
+    const Texture& texture = scene.textures.at(static_cast<std::size_t>(info.texture));
+    return scene.pictures.at(static_cast<std::size_t>(texture.picture)).codes[0];
+  };
+  EXPECT_EQ(scene.pictures.size(), 2U);
+  EXPECT_EQ(red_of(scene.materials[0].emissive_texture), 255);
+  EXPECT_EQ(red_of(scene.materials[0].occlusion_texture), 0);
+  EXPECT_EQ(red_of(scene.materials[0].normal_texture), 255);
 }
 
 TEST(GltfTextures, OnlyPicturesThatAMaterialUsesAreLoaded) {

@@ -1,5 +1,8 @@
 #include "scene/picture_codecs.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <string_view>
@@ -35,6 +38,22 @@ std::string take_size(std::uint32_t width, std::uint32_t height, Picture& pictur
   return {};
 }
 
+/// The codes of 8 bits that decode(bytes) gives, in a picture's own 16: the bytes come to lie in the upper half of the room for the codes
+/// and are widened from its beginning on, for pages of memory never touched before cost more than decoding does.
+template <class Decode>
+auto decode_bytes(std::size_t count, std::vector<std::uint16_t>& codes, const Decode& decode) {
+  codes.resize(count);
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(codes.data()) + count;
+  const auto result = decode(reinterpret_cast<std::uint8_t*>(codes.data()) + count);
+  std::array<std::uint8_t, 4096> some{};
+  for (std::size_t first = 0; first < count; first += some.size()) {
+    const std::size_t size = std::min(some.size(), count - first);
+    std::memcpy(some.data(), bytes + first, size);
+    std::copy_n(some.begin(), size, codes.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  return result;
+}
+
 std::string decode_png(Bytes file, Picture& picture) {
   const std::unique_ptr<spng_ctx, void (*)(spng_ctx*)> context(spng_ctx_new(0), spng_ctx_free);
   if (!context) {
@@ -63,13 +82,12 @@ std::string decode_png(Bytes file, Picture& picture) {
   if (error != 0) {
     return failure(error);
   }
-  picture.codes.resize(count);
+  const auto decode = [&](void* out) { return spng_decode_image(context.get(), out, size, format, SPNG_DECODE_TRNS); };
   if (picture.bits == 16) {
-    error = spng_decode_image(context.get(), picture.codes.data(), size, format, SPNG_DECODE_TRNS);
+    picture.codes.resize(count);
+    error = decode(picture.codes.data());
   } else {
-    std::vector<std::uint8_t> codes(size);
-    error = spng_decode_image(context.get(), codes.data(), size, format, SPNG_DECODE_TRNS);
-    picture.codes.assign(codes.begin(), codes.end());
+    error = decode_bytes(count, picture.codes, decode);
   }
   // What follows the pixels is read too: a file cut there is damaged.
   error = error != 0 ? error : spng_decode_chunks(context.get());
@@ -95,15 +113,14 @@ std::string decode_jpeg(Bytes file, Picture& picture) {
   if (std::string wrong = take_size(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), picture); !wrong.empty()) {
     return wrong;
   }
-  std::vector<std::uint8_t> codes(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  picture.bits = 8;
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
   // A limit on scans stops progressive files that would take hours.
   constexpr int flags = TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
-  if (tjDecompress2(decoder.get(), file.data(), file.size(), codes.data(), width, 0, height, TJPF_RGBA, flags) != 0) {
-    return failure();
-  }
-  picture.bits = 8;
-  picture.codes.assign(codes.begin(), codes.end());
-  return {};
+  const int error = decode_bytes(count, picture.codes, [&](std::uint8_t* out) {
+    return tjDecompress2(decoder.get(), file.data(), file.size(), out, width, 0, height, TJPF_RGBA, flags);
+  });
+  return error != 0 ? failure() : std::string();
 }
 
 }  // namespace

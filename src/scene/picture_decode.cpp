@@ -32,6 +32,28 @@ Bytes encoded_bytes(const Element& element, std::size_t index, const Resources& 
 
 }  // namespace
 
+std::vector<int> share_images(const Element& root, const Resources& resources, const std::vector<int>& images,
+                              std::vector<Texture>& textures) {
+  const std::vector<Element> elements = root.children("images");
+  std::vector<int> left;
+  std::vector<Bytes> files;
+  std::vector<int> becomes;
+  for (const int image : images) {
+    const auto index = static_cast<std::size_t>(image);
+    const Bytes file = encoded_bytes(elements[index], index, resources);
+    const auto known = std::find_if(files.begin(), files.end(), [&](Bytes other) { return std::ranges::equal(file, other); });
+    becomes.push_back(static_cast<int>(known - files.begin()));
+    if (known == files.end()) {
+      files.push_back(file);
+      left.push_back(image);
+    }
+  }
+  for (Texture& texture : textures) {
+    texture.picture = becomes[static_cast<std::size_t>(texture.picture)];
+  }
+  return left;
+}
+
 std::vector<Picture> decode_images(const Element& root, const Resources& resources, const std::vector<int>& images) {
   const std::vector<Element> elements = root.children("images");
   std::vector<Picture> pictures(images.size());

@@ -25,6 +25,7 @@ void golden_picture(benchmark::State& state, bool clearcoat, bool bounds) {
 }
 BENCHMARK_CAPTURE(golden_picture, sheen, false, false)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(golden_picture, sheen_with_bounds, false, true)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(golden_picture, clearcoat_over_sheen, true, false)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(golden_picture, clearcoat_over_sheen_with_bounds, true, true)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void renderer_frame(benchmark::State& state, sheen::gles::ContextKind kind, bool clearcoat) {

@@ -1,0 +1,56 @@
+#include "conformance/mutants/mutant.h"
+
+namespace sheen::conformance {
+
+std::vector<Mutant> normal_mutants() {
+  return {
+      {.name = "normal.scale_ignored",
+       .why = "normalTexture.scale is not read",
+       .first = {{"core", "texture.normal.scaled"}},
+       .alter = of_materials([](scene::Material& material) { material.normal_scale = 1.0; })},
+      {.name = "normal.scale_of_the_coat_ignored",
+       .why = "clearcoatNormalTexture.scale is not read",
+       .first = {{"core", "texture.clearcoat_normal.scaled"}},
+       .alter = of_materials([](scene::Material& material) { material.clearcoat.normal_scale = 1.0; })},
+      {.name = "normal.scale_of_all_three",
+       .why = "the whole vector is scaled, which normalising undoes",
+       .first = {{"core", "texture.normal.scaled"}},
+       .edits = {{"shading_frame.glsl", "vec3(scale, scale, 1.0)", "vec3(scale)"}}},
+      {.name = "normal.bitangent_without_the_sign",
+       .why = "the fourth component of TANGENT is not read, so mirrored halves of a model are lit from the other side",
+       .first = {{"semantics", "base.normal_map_of_mirrored_coordinates_keeps_its_bitangent"}},
+       .edits = {{"shading_frame.glsl", "cross(N, T) * v_tangent.w", "cross(N, T)"}}},
+      {.name = "normal.green_points_down",
+       .why = "normal maps of the other convention are expected",
+       .first = {{"core", "texture.normal.*"}},
+       .edits = {{"shading_frame.glsl", "T * n.x + B * n.y + N * n.z", "T * n.x - B * n.y + N * n.z"}}},
+      {.name = "normal.map_decoded_as_a_color",
+       .why = "every picture goes through sRGB decoding",
+       .first = {{"core", "texture.normal.*"}},
+       .edits = {{"shading_frame.glsl", "vec3 n = normalize_or((texel * 2.0",
+                  "vec3 n = normalize_or((pow(max(texel, vec3(0.0)), vec3(2.2)) * 2.0"}}},
+      {.name = "normal.transformed_as_a_position",
+       .why = "the model matrix is used where its inverse transpose belongs, which shows where the scale is uneven",
+       .first = {{"core", "surface.mirrored_node"}},
+       .edits = {{"main.vert", "u_normal_from_local * a_normal", "mat3(u_view_from_local) * a_normal"}}},
+      {.name = "normal.not_normalized_after_interpolation",
+       .why = "normals are unit vectors in the file, and shorter between its vertices",
+       .edits = {{"shading_frame.glsl", "return normalize_or(v_normal, facing);", "return v_normal;"}}},
+      {.name = "normal.of_faces",
+       .why = "the derivatives of the position give a normal without any attribute",
+       .edits = {{"shading_frame.glsl", "return normalize_or(v_normal, facing);", "return facing;"}}},
+      {.name = "normal.of_the_back_not_turned",
+       .why = "a double-sided material is drawn with culling off and nothing else",
+       .first = {{"core", "surface.back_of_a_cloth"}},
+       .edits = {{"shading_frame.glsl", "return gl_FrontFacing ? N : -N;", "return N;"}}},
+      {.name = "normal.double_sided_ignored",
+       .why = "back faces are always culled",
+       .first = {{"core", "surface.masked_double_sided"}},
+       .alter = of_materials([](scene::Material& material) { material.double_sided = false; })},
+      {.name = "normal.view_direction_of_the_camera_axis",
+       .why = "one V serves the whole picture, as for an orthographic camera",
+       .edits = {{"main.frag", "vec3 V = normalize_or(-v_position, vec3(0.0, 0.0, 1.0));", "vec3 V = vec3(0.0, 0.0, 1.0);"}}},
+  };
+}
+
+}  // namespace sheen::conformance

@@ -1,0 +1,287 @@
+#include "golden/bounded_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "brdf/draft_sheen.h"
+#include "golden/texture_box.h"
+#include "golden/varying.h"
+#include "number/bounded_functions.h"
+
+namespace sheen::golden {
+namespace {
+
+using Vector = Vec3<Bound>;
+using Color = brdf::Rgb<Bound>;
+
+constexpr double epsilon = number::epsilon<number::Highp>;
+
+Bound bound(const Varying& v) {
+  return std::isfinite(v.radius) ? Bound::at_sample(v.value, v.shift_x, v.shift_y, 1.0, v.radius) : Bound::unbounded(v.value);
+}
+
+Color color_of(const glm::dvec3& c) {
+  return {Bound(c.x), Bound(c.y), Bound(c.z)};
+}
+
+/// Four channels of a texture.
+struct Texel {
+  Bound r{1}, g{1}, b{1}, a{1};
+};
+
+Bound channel(const Spread& s, int c) {
+  return Bound::within(s.value[c], s.radius[c]);
+}
+
+/// The unit vector along v, `otherwise` where v certainly has no direction, and no bound where it may have none.
+Vector unit_or(const Vector& v, const Vector& otherwise) {
+  constexpr double smallest = 1e-30;  // of a squared length, in floats
+  const Bound squared = dot(v, v);
+  if (squared.is_bounded() && squared.range().lower > smallest) {
+    return v * inversesqrt(squared);
+  }
+  if (squared.is_bounded() && squared.range().upper <= smallest) {
+    return otherwise;
+  }
+  const Bound none = Bound::unbounded(0.0);
+  return {none, none, none};
+}
+
+glm::dmat3 rotation_into_view(const scene::Camera& camera) {
+  return glm::transpose(glm::dmat3(camera.world_from_camera));
+}
+
+}  // namespace
+
+/// One hit, while its surface is read.
+class BoundedSurfaceReader::At {
+ public:
+  At(const BoundedSurfaceReader& r, const Hit& hit, const Ray& ray)
+      : r_(r),
+        hit_(hit),
+        ray_(ray),
+        placed_(r.geometry_.placed(hit.triangle)),
+        material_(r.reader_.material(placed_.material_index)),
+        local_(r.geometry_.local_vertices(hit.triangle)),
+        interpolate_(r.geometry_, r.rays_, hit, ray, r.step_) {}
+
+  BoundedSurface read() const;
+
+ private:
+  using Slot = SurfaceReader::Slot;
+
+  Texel texture(const Slot& slot) const;
+  Bound texture_coordinate(const Slot& slot, const std::array<Bound, 2>& uv, int row) const;
+  Vector position() const;
+  Vector face_normal(const Vector& position) const;
+  Vector transformed(const std::vector<glm::vec3>& directions, const glm::dmat3& view_from_local) const;
+  Vector normal(const Vector& position) const;
+  Vector mapped_normal(const Slot& slot, double scale, const Vector& normal) const;
+  void read_base(Surface<Bound>& s, Bound& alpha) const;
+  void read_layers(Surface<Bound>& s) const;
+
+  const BoundedSurfaceReader& r_;
+  const Hit& hit_;
+  const Ray& ray_;
+  const Placed& placed_;
+  const SurfaceReader::Material& material_;
+  std::array<std::uint32_t, 3> local_;
+  Interpolation interpolate_;
+};
+
+// KHR_texture_transform as a matrix of floats, of which the shader takes two rows.
+Bound BoundedSurfaceReader::At::texture_coordinate(const Slot& slot, const std::array<Bound, 2>& uv, int row) const {
+  const glm::dmat3& m = slot.transform;
+  if (m == glm::dmat3(1.0)) {
+    return uv.at(static_cast<std::size_t>(row));
+  }
+  return Bound(m[0][row]) * uv[0] + Bound(m[1][row]) * uv[1] + Bound(m[2][row]);
+}
+
+Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
+  if (!slot.texture) {
+    return {};
+  }
+  const auto& texcoords = placed_.primitive->texcoords[static_cast<std::size_t>(slot.texcoord)];
+  std::array<Bound, 2> uv{Bound(0.0), Bound(0.0)};
+  for (int axis = 0; axis < 2 && !texcoords.empty(); ++axis) {
+    uv.at(static_cast<std::size_t>(axis)) =
+        bound(interpolate_({texcoords[local_[0]][axis], texcoords[local_[1]][axis], texcoords[local_[2]][axis]}, 0.0));
+  }
+  const Bound u = texture_coordinate(slot, uv, 0);
+  const Bound v = texture_coordinate(slot, uv, 1);
+  if (!u.is_bounded() || !v.is_bounded()) {
+    const Bound none = Bound::unbounded(0.0);
+    return {none, none, none, none};
+  }
+  const Spread s = sample_box(*slot.texture, {u.center(), v.center()}, {u.deviation(), v.deviation()}, r_.reader_.level(slot, hit_, ray_));
+  return {channel(s, 0), channel(s, 1), channel(s, 2), channel(s, 3)};
+}
+
+// In view space. The vertex shader works with coordinates about the primitive's own middle, so that what it rounds is as large as the
+// vertex is far from the camera and from that middle.
+Vector BoundedSurfaceReader::At::position() const {
+  std::array<glm::dvec3, 3> p;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 from_eye =
+        r_.geometry_.positions()[r_.geometry_.vertices(hit_.triangle).at(i)] - glm::dvec3(r_.rays_.camera().world_from_camera[3]);
+    p.at(i) = r_.view_from_world_ * from_eye;
+    largest = std::max(largest, glm::length(from_eye));
+  }
+  const double rounding = transform_roundings * epsilon * (largest + 2.0 * placed_.radius);
+  const auto axis = [&](int k) { return bound(interpolate_({p[0][k], p[1][k], p[2][k]}, rounding)); };
+  return {axis(0), axis(1), axis(2)};
+}
+
+// Where a normal has no direction the shader takes the triangle's own, the cross product of how the position changes to the next pixel
+// along x and along y: differences of two positions, each of them off by its rounding.
+Vector BoundedSurfaceReader::At::face_normal(const Vector& position) const {
+  const glm::dvec3 n = r_.view_from_world_ * r_.geometry_.face_normal(hit_.triangle);
+  const auto point = [&](double dx, double dy) {
+    const Ray ray = r_.rays_.through(ray_.x + dx, ray_.y + dy);
+    const std::optional<Hit> met = r_.geometry_.meet(hit_.triangle, ray);
+    return met ? ray.origin + ray.direction * met->t : glm::dvec3(std::numeric_limits<double>::infinity());
+  };
+  const glm::dvec3 here = point(0.0, 0.0);
+  const glm::dvec3 dx = point(1.0, 0.0) - here;
+  const glm::dvec3 dy = point(0.0, 1.0) - here;
+  const double error = 2.0 * (position.x.radius() + position.y.radius() + position.z.radius());
+  const double off = (error * (glm::length(dx) + glm::length(dy)) + error * error) / glm::length(glm::cross(dx, dy)) + 8.0 * epsilon;
+  const auto axis = [off](double x) { return std::isfinite(off) ? Bound::within(x, off) : Bound::unbounded(x); };
+  return {axis(n.x), axis(n.y), axis(n.z)};
+}
+
+Vector BoundedSurfaceReader::At::transformed(const std::vector<glm::vec3>& directions, const glm::dmat3& view_from_local) const {
+  const glm::dmat3 magnitudes(glm::abs(view_from_local[0]), glm::abs(view_from_local[1]), glm::abs(view_from_local[2]));
+  std::array<glm::dvec3, 3> d;
+  glm::dvec3 largest(0.0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 local(directions[local_.at(i)]);
+    d.at(i) = view_from_local * local;
+    largest = glm::max(largest, magnitudes * glm::abs(local));
+  }
+  const auto axis = [&](int k) { return bound(interpolate_({d[0][k], d[1][k], d[2][k]}, transform_roundings * epsilon * largest[k])); };
+  return {axis(0), axis(1), axis(2)};
+}
+
+Vector BoundedSurfaceReader::At::normal(const Vector& position) const {
+  if (placed_.primitive->normals.empty()) {
+    return face_normal(position);
+  }
+  // Scaled to lengths near 1, as a shader's matrix has it: the length goes, but what has none must not.
+  glm::dmat3 m = r_.view_from_world_ * placed_.normal_matrix;
+  const double scale = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+  m = scale > 0.0 ? m * (1.0 / scale) : m;
+  const Vector n = transformed(placed_.primitive->normals, m);
+  const Bound squared = dot(n, n);
+  if (squared.is_bounded() && squared.range().lower > 1e-30) {
+    return n * inversesqrt(squared);
+  }
+  return unit_or(n, face_normal(position));
+}
+
+// glTF 2.0, sections 3.7.2.1 and 3.9.3, as SurfaceReader has it.
+Vector BoundedSurfaceReader::At::mapped_normal(const Slot& slot, double scale, const Vector& normal) const {
+  if (!slot.texture || placed_.primitive->tangents.empty()) {
+    return normal;
+  }
+  const auto& tangents = placed_.primitive->tangents;
+  const glm::dmat3 m = r_.view_from_world_ * placed_.linear;
+  std::array<glm::dvec3, 3> d;
+  double length = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    d.at(i) = m * glm::dvec3(tangents[local_.at(i)]);
+    length = std::max(length, glm::length(d.at(i)));
+  }
+  if (length == 0.0) {
+    return normal;
+  }
+  const auto axis = [&](int k) {
+    return bound(interpolate_({d[0][k] / length, d[1][k] / length, d[2][k] / length}, transform_roundings * epsilon * std::sqrt(3.0)));
+  };
+  const Vector tangent = unit_or({axis(0), axis(1), axis(2)}, normal);
+  const Bound w = bound(interpolate_({tangents[local_[0]].w, tangents[local_[1]].w, tangents[local_[2]].w}, 0.0));
+  const Vector bitangent = cross(normal, tangent) * w;
+  const Texel texel = texture(slot);
+  const auto bent = [](const Bound& x, double by) { return (x * Bound(2) - Bound(1)) * Bound(by); };
+  const Vector up{Bound(0.0), Bound(0.0), Bound(1)};
+  const Vector n = unit_or({bent(texel.r, scale), bent(texel.g, scale), bent(texel.b, 1.0)}, up);
+  return unit_or(tangent * n.x + bitangent * n.y + normal * n.z, normal);
+}
+
+void BoundedSurfaceReader::At::read_base(Surface<Bound>& s, Bound& alpha) const {
+  const scene::Material& source = *material_.source;
+  const Texel base = texture(material_.base_color);
+  Color color = color_of(glm::dvec3(source.base_color_factor)) * Color{base.r, base.g, base.b};
+  alpha = Bound(source.base_color_factor.w) * base.a;
+  const auto& colors = placed_.primitive->colors;
+  if (!colors.empty()) {
+    const auto vertex = [&](int k) { return bound(interpolate_({colors[local_[0]][k], colors[local_[1]][k], colors[local_[2]][k]}, 0.0)); };
+    color = color * Color{vertex(0), vertex(1), vertex(2)};
+    alpha = alpha * vertex(3);
+  }
+  const Texel metallic_roughness = texture(material_.metallic_roughness);
+  const Bound roughness = Bound(source.roughness_factor) * metallic_roughness.g;
+  const Texel tint = texture(material_.specular_color);
+  const double f0 = brdf::f0_from_ior(source.ior);
+  const Color reflected = color_of(source.specular.color_factor) * Color{tint.r, tint.g, tint.b} * Bound(f0);
+  s.base.color = color;
+  s.base.metallic = Bound(source.metallic_factor) * metallic_roughness.b;
+  s.base.alpha = roughness * roughness;
+  s.base.dielectric_f0 = {min(reflected.r, Bound(1)), min(reflected.g, Bound(1)), min(reflected.b, Bound(1))};
+  s.base.specular = Bound(source.specular.factor) * texture(material_.specular).a;
+  if (material_.layers.sheen) {
+    const Texel sheen = texture(material_.sheen_color);
+    s.sheen_color = color_of(source.sheen.color_factor) * Color{sheen.r, sheen.g, sheen.b};
+    s.sheen_roughness = Bound(source.sheen.roughness_factor) * texture(material_.sheen_roughness).a;
+    if (r_.model_ == brdf::Model::Draft2019) {
+      s.sheen_color = brdf::draft_sheen_color(s.sheen_color, color, s.base.metallic);
+      s.sheen_roughness = roughness;
+    }
+  }
+}
+
+void BoundedSurfaceReader::At::read_layers(Surface<Bound>& s) const {
+  const scene::Material& source = *material_.source;
+  const Texel emissive = texture(material_.emissive);
+  s.emission = color_of(source.emissive_factor) * Color{emissive.r, emissive.g, emissive.b};
+  if (material_.layers.clearcoat) {
+    const Bound roughness = Bound(source.clearcoat.roughness_factor) * texture(material_.clearcoat_roughness).g;
+    s.clearcoat = Bound(source.clearcoat.factor) * texture(material_.clearcoat).r;
+    s.coat_alpha = roughness * roughness;
+  }
+  s.occlusion = Bound(1);
+}
+
+BoundedSurface BoundedSurfaceReader::At::read() const {
+  BoundedSurface out;
+  Surface<Bound>& s = out.surface;
+  s.position = position();
+  const Vector up{Bound(0.0), Bound(0.0), Bound(1)};
+  const Vector toward{-s.position.x, -s.position.y, -s.position.z};
+  s.view = r_.rays_.camera().perspective ? unit_or(toward, up) : up;
+  const Vector interpolated = normal(s.position);
+  const auto facing = [this](const Vector& n) { return hit_.front ? n : Vector{-n.x, -n.y, -n.z}; };
+  s.normal = facing(mapped_normal(material_.normal, material_.source->normal_scale, interpolated));
+  s.coat_normal = facing(mapped_normal(material_.clearcoat_normal, material_.source->clearcoat.normal_scale, interpolated));
+  read_base(s, out.opacity);
+  out.opacity = min(max(out.opacity, Bound(0.0)), Bound(1));
+  read_layers(s);
+  return out;
+}
+
+BoundedSurfaceReader::BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader,
+                                           brdf::Model model, double step)
+    : geometry_(geometry), rays_(rays), reader_(reader), model_(model), step_(step), view_from_world_(rotation_into_view(rays.camera())) {}
+
+BoundedSurface BoundedSurfaceReader::read(const Hit& hit, const Ray& ray) const {
+  return At(*this, hit, ray).read();
+}
+
+}  // namespace sheen::golden

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "golden/geometry.h"
+#include "golden/rays.h"
+#include "golden/surface.h"
+#include "golden/surface_reader.h"
+#include "number/bounded.h"
+
+namespace sheen::golden {
+
+using Bound = number::Bounded<number::Highp>;
+
+/// A surface with all that a conforming rasteriser and shader may find in its place while the sample is displaced within the step.
+struct BoundedSurface {
+  Surface<Bound> surface;  ///< position and directions in view space, where a shader's roundings happen
+  Bound opacity{1};
+};
+
+/// Reads surfaces as SurfaceReader does, on number::Bounded: the vertex shader's and the interpolation's roundings (varying.h), textures at
+/// all coordinates that these and the displacement reach (texture_box.h), and every operation after.
+class BoundedSurfaceReader {
+ public:
+  /// The references must outlive this. @param step  of the sample's displacement along either axis, pixels
+  BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader, brdf::Model model, double step);
+
+  /// At a hit of a ray; see Interpolation. Where a normal may or may not have a direction, it is unbounded.
+  BoundedSurface read(const Hit& hit, const Ray& ray) const;
+
+ private:
+  class At;
+  const Geometry& geometry_;
+  const RayGenerator& rays_;
+  const SurfaceReader& reader_;
+  brdf::Model model_;
+  double step_;
+  glm::dmat3 view_from_world_;
+};
+
+}  // namespace sheen::golden

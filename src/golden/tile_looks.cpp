@@ -1,0 +1,138 @@
+// What rays around a pixel's centre see, and what follows from it: whether the pixel is left out, and what encloses its value.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/common.hpp>
+
+#include "golden/tile.h"
+
+namespace sheen::golden {
+
+// Whether another surface, or none, is met within the step: another number of layers, or a depth that neither triangle's slope explains.
+// Across an edge that two triangles share, their planes meet within the step, so the gap between them is at most what both depths change.
+bool Tile::interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const {
+  if (centre.nearest.has_value() != seen.nearest.has_value() || centre.blended.size() != seen.blended.size()) {
+    return true;
+  }
+  if (!centre.nearest || centre.nearest->triangle == seen.nearest->triangle) {
+    return false;
+  }
+  const std::optional<Hit> ours_there = frame_.geometry.meet(centre.nearest->triangle, ray);
+  const std::optional<Hit> theirs_here = frame_.geometry.meet(seen.nearest->triangle, centre_ray);
+  if (!ours_there || !theirs_here) {
+    return true;
+  }
+  const double change = std::abs(ours_there->t - centre.nearest->t) + std::abs(seen.nearest->t - theirs_here->t);
+  // Twice: several small triangles may lie between the two.
+  return std::abs(seen.nearest->t - ours_there->t) > 2.0 * change + 1e-7 * std::abs(centre.nearest->t);
+}
+
+// The centre's own triangles, carried on to where another ray meets their planes.
+Seen Tile::extended(const Seen& centre, const Ray& ray) const {
+  const auto carry_on = [&](const Hit& hit) {
+    Hit carried = hit;
+    if (const std::optional<Hit> met = frame_.geometry.meet(hit.triangle, ray)) {
+      // A sliver's weights grow without limit; beyond its own size it is no longer what a rasteriser could show.
+      const glm::dvec3 w = glm::clamp(met->weights, -1.0, 2.0);
+      carried.weights = {1.0 - w.y - w.z, w.y, w.z};
+    }
+    return carried;
+  };
+  Seen out;
+  if (centre.nearest) {
+    out.nearest = carry_on(*centre.nearest);
+  }
+  for (const Hit& hit : centre.blended) {
+    out.blended.push_back(carry_on(hit));
+  }
+  return out;
+}
+
+// What the corners of the step see.
+void Tile::look_around(Plan& plan) {
+  const double step = displacement(frame_.settings);
+  const Look& centre = looks_[0];
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const double dx = (corner & 1u) != 0 ? step : -step;
+    const double dy = (corner & 2u) != 0 ? step : -step;
+    Look& look = looks_[corner + 1];
+    look.ray = frame_.rays.through(centre.ray.x + dx, centre.ray.y + dy);
+    frame_.tracer.trace(look.ray, true, look.seen);
+    if (look.seen.tie || interrupted(centre.ray, centre.seen, look.ray, look.seen)) {
+      plan.excluded = Exclusion::Surface;
+    }
+  }
+}
+
+// A driver whose grid moves an edge past a sample shades that sample with the triangles of the other side, carried on beyond the edge: with
+// all that any of the looks meets, and the other of two surfaces at one depth.
+Enclosed Tile::enclose() const {
+  const Look& centre = looks_[0];
+  Enclosed all = bound_->of(centre.seen, centre.ray);
+  const auto include = [&](const Seen& seen) {
+    const Enclosed other = bound_->of(extended(seen, centre.ray), centre.ray);
+    all.deviation = glm::max(all.deviation, glm::abs(other.value - all.value) + other.deviation);
+  };
+  for (std::size_t k = 0; k < looks_.size(); ++k) {
+    const Seen& seen = looks_[k].seen;
+    if (k > 0 && !seen_before(k)) {
+      include(seen);
+    }
+    if (seen.tie) {
+      Seen tied = seen;
+      tied.nearest = seen.tie;
+      include(tied);
+    }
+  }
+  return all;
+}
+
+// Whether an earlier look meets the same triangles.
+bool Tile::seen_before(std::size_t look) const {
+  const auto last = looks_.begin() + static_cast<std::ptrdiff_t>(look);
+  return std::any_of(looks_.begin(), last, [&](const Look& earlier) { return earlier.seen.same_triangles(looks_[look].seen); });
+}
+
+// Whether a MASK surface in front may be kept or discarded: within the step, its triangle carried on, or by the freedom in the level of
+// detail.
+bool Tile::mask_uncertain() const {
+  constexpr std::size_t base_color = 0;
+  std::vector<std::uint32_t> judged;
+  for (const Look& met : looks_) {
+    for (const Hit& hit : met.seen.masked) {
+      if (std::find(judged.begin(), judged.end(), hit.triangle) != judged.end()) {
+        continue;
+      }
+      judged.push_back(hit.triangle);
+      const double cutoff = frame_.geometry.placed(hit.triangle).material->alpha_cutoff;
+      Seen alone;
+      alone.nearest = hit;
+      const bool kept = frame_.reader.opacity(hit, met.ray) >= cutoff;
+      const TextureReach reach = frame_.reader.texture_reach(hit, met.ray);
+      if (reach.texels > most_texels_of_corners) {
+        return true;
+      }
+      for (const glm::dvec2& nudge : nudges) {
+        if (reach.beyond_the_step && (frame_.reader.opacity(hit, met.ray, {std::nullopt, 0, nudge}) >= cutoff) != kept) {
+          return true;
+        }
+      }
+      for (const Look& look : looks_) {
+        const Hit there = *extended(alone, look.ray).nearest;
+        if ((frame_.reader.opacity(there, look.ray) >= cutoff) != kept) {
+          return true;
+        }
+        for (const double level : frame_.reader.levels_to_try(there, look.ray, base_color)) {
+          if ((frame_.reader.opacity(there, look.ray, {level, base_color}) >= cutoff) != kept) {
+            return true;
+          }
+        }
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace sheen::golden

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+
+#include "golden/geometry.h"
+#include "golden/rays.h"
+
+namespace sheen::golden {
+
+/// What a shader may find in an interpolated variable while the sample is displaced by up to one step along each axis.
+struct Varying {
+  double value = 0;                 ///< at the sample itself, exactly interpolated
+  double shift_x = 0, shift_y = 0;  ///< first-order change for a step along x and along y
+  double radius = 0;                ///< all else: curvature over the step, the vertex shader's rounding, the rasteriser's; may be infinite
+};
+
+/// Roundings of a vertex shader that multiplies a matrix of floats by a vector, in units of highp's epsilon and relative to the sum of the
+/// products' magnitudes: 1 for the matrix's own digits, 1 for the product, 2 for two sums; a fourth column's product is by 1.
+inline constexpr double transform_roundings = 4;
+
+/// One triangle under one sample, ready to interpolate whatever stands at its vertices (OpenGL ES 3.0.6, section 3.6.1).
+class Interpolation {
+ public:
+  /// @param hit   on the triangle's plane under `ray`, or its weights held to what a rasteriser could show
+  /// @param step  of the sample's displacement, pixels
+  Interpolation(const Geometry& geometry, const RayGenerator& rays, const Hit& hit, const Ray& ray, double step);
+
+  /// @param rounding  absolute error of the values, the largest of the three
+  Varying operator()(const std::array<double, 3>& at_vertices, double rounding) const;
+
+ private:
+  glm::dvec3 weights_;
+  glm::dvec3 volumes_{0.0}, volumes_x_{0.0}, volumes_y_{0.0};  // edge functions at the sample, and their changes a step; affine in it
+  double sum_ = 0, sum_x_ = 0, sum_y_ = 0;
+  bool within_ = false;       // whether the step is small beside the triangle and the horizon of its plane
+  double nearness_ = 1;       // depth here over the nearest vertex's
+  double steps_x_, steps_y_;  // the picture's size, in steps
+};
+
+}  // namespace sheen::golden
