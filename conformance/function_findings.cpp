@@ -14,11 +14,17 @@ constexpr int bins = 48;
 constexpr double panel_width = 210;
 constexpr double panel_height = 96;
 constexpr double panel_step = 236;
+constexpr double row_step = 122;
+constexpr double left_margin = 44;
+constexpr std::size_t panels_a_row = 4;
 
-/// Of all samples that fall in a bin of a parameter's axis, the one nearest to its bound; in units of the plot.
+/// Of all samples that fall in a bin of a parameter's axis, the one with the largest error, or the one furthest outside its bound if any
+/// is; in units of the plot.
 struct Bin {
   bool filled = false;
   double ratio = 0, error = 0, bound = 0;
+
+  bool is_worse_than(const Bin& other) const { return std::max(ratio, other.ratio) > 1 ? ratio > other.ratio : error > other.error; }
 };
 
 std::array<Bin, bins> fill_bins(const FunctionSamples& samples, const std::vector<SampleError>& errors, std::size_t parameter) {
@@ -30,14 +36,15 @@ std::array<Bin, bins> fill_bins(const FunctionSamples& samples, const std::vecto
     }
     const double share = samples.spec.parameters[parameter].share(samples.values[i][parameter]);
     Bin& bin = filled.at(static_cast<std::size_t>(std::min(static_cast<int>(share * bins), bins - 1)));
-    if (!bin.filled || one.ratio > bin.ratio) {
-      bin = {true, one.ratio, in_plot_units(samples.spec, one.value, one.error), in_plot_units(samples.spec, one.value, one.bound)};
+    const Bin sample{true, one.ratio, in_plot_units(samples.spec, one.value, one.error), in_plot_units(samples.spec, one.value, one.bound)};
+    if (!bin.filled || sample.is_worse_than(bin)) {
+      bin = sample;
     }
   }
   return filled;
 }
 
-std::string text_of(const char* format, double a, double b) {
+std::string text_of(const char* format, double a, double b = 0) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), format, a, b);
   return text.data();
@@ -76,8 +83,16 @@ std::string polyline(const std::array<Bin, bins>& panel, const Decades& decades,
   return std::string("<polyline class=") + style + " points=\"" + points + "\"/>";
 }
 
-std::string panel_svg(const Parameter& parameter, const std::array<Bin, bins>& panel, const Decades& decades, double at) {
-  std::string svg = "<g transform=\"translate(" + text_of("%.0f,%.0f", at, 6) + ")\">";
+/// The decades' ends and the unit, left of a row of panels.
+std::string scale_svg(const Decades& decades, const char* unit, double y) {
+  const auto text = [](double at, const std::string& words) {
+    return "<text x=\"40\" y=\"" + text_of("%.0f", at) + "\" text-anchor=end>" + words + "</text>";
+  };
+  return text(y + 12, "1e" + text_of("%.0f", decades.high)) + text(y + 57, unit) + text(y + 102, "1e" + text_of("%.0f", decades.low));
+}
+
+std::string panel_svg(const Parameter& parameter, const std::array<Bin, bins>& panel, const Decades& decades, double x, double y) {
+  std::string svg = "<g transform=\"translate(" + text_of("%.0f,%.0f", x, y) + ")\">";
   svg += "<rect width=\"" + text_of("%.0f\" height=\"%.0f", panel_width, panel_height) + "\"/>";
   svg += polyline(panel, decades, &Bin::bound, "bound") + polyline(panel, decades, &Bin::error, "error");
   svg += "<text y=\"110\">" + parameter.low + "</text><text y=\"110\" text-anchor=middle x=\"105\">" + parameter.name +
@@ -89,21 +104,28 @@ std::string draw_plots(const FunctionSamples& samples, const std::vector<SampleE
   std::vector<std::size_t> shown;
   std::vector<std::array<Bin, bins>> panels;
   for (std::size_t k = 0; k < samples.spec.parameters.size(); ++k) {
+    const auto differs = [&](const std::vector<double>& values) { return values[k] != samples.values.front()[k]; };
     // A parameter that only takes what lies beyond 1 has no axis.
-    if (samples.spec.parameters[k].at(0) != samples.spec.parameters[k].at(1)) {
+    if (samples.spec.parameters[k].at(0) != samples.spec.parameters[k].at(1) &&
+        std::any_of(samples.values.begin(), samples.values.end(), differs)) {
       shown.push_back(k);
       panels.push_back(fill_bins(samples, errors, k));
     }
   }
   const Decades decades(panels);
-  const double width = 44 + panel_step * static_cast<double>(shown.size());
-  std::string svg = "<svg class=plots viewBox=\"0 0 " + text_of("%.0f %.0f", width, 116) +
-                    "\" style=\"max-width:" + text_of("%.0f%.0s", width, 0) + "px\">";
-  svg += "<text x=\"40\" y=\"12\" text-anchor=end>1e" + text_of("%.0f%.0s", decades.high, 0) +
-         "</text><text x=\"40\" y=\"102\" text-anchor=end>1e" + text_of("%.0f%.0s", decades.low, 0) +
-         "</text><text x=\"40\" y=\"57\" text-anchor=end>" + (samples.spec.is_operation ? "ulp" : "rel") + "</text>";
+  const std::size_t columns = std::min(shown.size(), panels_a_row);
+  const double width = left_margin + panel_step * static_cast<double>(columns);
+  const double height = row_step * std::ceil(static_cast<double>(shown.size()) / static_cast<double>(panels_a_row));
+  std::string svg =
+      "<svg class=plots viewBox=\"0 0 " + text_of("%.0f %.0f", width, height) + "\" style=\"max-width:" + text_of("%.0f", width) + "px\">";
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    svg += panel_svg(samples.spec.parameters[shown[i]], panels[i], decades, 44 + panel_step * static_cast<double>(i));
+    const double x = left_margin + panel_step * static_cast<double>(i % panels_a_row);
+    const std::size_t row = i / panels_a_row;
+    const double y = row_step * static_cast<double>(row);
+    if (i % panels_a_row == 0) {
+      svg += scale_svg(decades, samples.spec.is_operation ? "ulp" : "rel", y);
+    }
+    svg += panel_svg(samples.spec.parameters[shown[i]], panels[i], decades, x, y + 6);
   }
   return svg + "</svg>";
 }
@@ -144,7 +166,7 @@ FunctionFindings find(const FunctionCase& one, const FunctionSamples& samples, c
     }
   }
   findings.plots = draw_plots(samples, errors);
-  findings.legend = std::string("error (green) and bound (red) of the sample nearest to its bound, ") +
+  findings.legend = std::string("the largest error (green) at each place and the bound (red) of the same sample, ") +
                     (samples.spec.is_operation ? "in ulp" : "relative to max(|value|, 1e-3)");
   if (one.arguments == ArgumentSet::Dense && samples.spec.parameters.size() > 1) {
     findings.map = draw_map(one, errors);

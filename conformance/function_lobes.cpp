@@ -184,7 +184,7 @@ void add_weights(std::vector<FunctionSpec>& all) {
   const NumberFormat format = format_of<P>();
   all.push_back({"fresnel_weight",
                  format,
-                 {cosine_parameter("V.H", format, 0, true)},
+                 {signed_cosine_parameter("V.H", format)},
                  [](const Values& v) { return v; },
                  1,
                  true,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <random>
 
 #include "brdf/math.h"
@@ -109,6 +111,16 @@ Parameter cosine_parameter(const std::string& name, const NumberFormat& format, 
   return {name, [](double u) { return u; }, within_axis, std::move(special), 0.6, least, "0", "1"};
 }
 
+Parameter signed_cosine_parameter(const std::string& name, const NumberFormat& format) {
+  Parameter parameter = cosine_parameter(name, format, -1 - format.ulp_above_1(), true);
+  const std::vector<double> positive = parameter.special;
+  std::transform(positive.begin(), positive.end(), std::back_inserter(parameter.special), std::negate<>());
+  parameter.at = [](double u) { return 2 * u - 1; };
+  parameter.share = [](double x) { return within_axis(0.5 * (x + 1)); };
+  parameter.low = "-1";
+  return parameter;
+}
+
 Parameter angle_parameter(const std::string& name) {
   const double right = 0.5 * brdf::pi;
   return {name,
@@ -169,13 +181,14 @@ std::vector<std::vector<double>> choose_values(const std::vector<Parameter>& par
   }
   std::vector<std::vector<double>> chosen;
   for (std::uint64_t i = 0; i < samples; ++i) {
-    const auto column = static_cast<double>(i % static_cast<std::uint64_t>(width));
-    const auto row = static_cast<double>(i / static_cast<std::uint64_t>(width));
+    const int column = static_cast<int>(i) % width;
+    const int row = static_cast<int>(i) / width;
     if (set == ArgumentSet::Dense && parameters.size() == 1) {
       chosen.push_back({parameters.front().at(static_cast<double>(i) / static_cast<double>(std::max(samples - 1, std::uint64_t{1})))});
     } else if (set == ArgumentSet::Dense) {
       // The second parameter grows upward, as in a plot.
-      chosen.push_back(grid(parameters, column / std::max(width - 1, 1), 1 - row / std::max(height - 1, 1)));
+      const auto share = [](int at, int side) { return static_cast<double>(at) / std::max(side - 1, 1); };
+      chosen.push_back(grid(parameters, share(column, width), 1 - share(row, height)));
     } else if (set == ArgumentSet::Random) {
       chosen.push_back(drawn(parameters, random));
     } else {

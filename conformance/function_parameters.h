@@ -36,6 +36,8 @@ Parameter roughness_parameter(const std::string& name, const NumberFormat& forma
 Parameter alpha_parameter(const std::string& name, const NumberFormat& format, double least = 0);
 /// A cosine or factor in [least, 1], and an ulp beyond 1 where `beyond`.
 Parameter cosine_parameter(const std::string& name, const NumberFormat& format, double least = 0, bool beyond = false);
+/// A cosine in [-1, 1], and an ulp beyond either end.
+Parameter signed_cosine_parameter(const std::string& name, const NumberFormat& format);
 /// An angle in [0, 90 degrees], in radians; axes run with its root, for the lobes are narrow about 0.
 Parameter angle_parameter(const std::string& name);
 /// What turns a figure without changing its shape: an azimuth in radians, in [0, 2 pi].

@@ -29,8 +29,8 @@ TEST(NumberFormat, NearestIsANumberOfTheFormatAndNoSubnormal) {
 
 TEST(Parameters, ShareUndoesAt) {
   for (const Parameter& parameter :
-       {roughness_parameter("r", highp), alpha_parameter("a", highp), cosine_parameter("c", highp), angle_parameter("t"),
-        turn_parameter("p"), operand_parameter("x", -3, 5, {}), magnitude_parameter("m", 0x1p-20, 0x1p10, false, {}),
+       {roughness_parameter("r", highp), alpha_parameter("a", highp), cosine_parameter("c", highp), signed_cosine_parameter("d", highp),
+        angle_parameter("t"), turn_parameter("p"), operand_parameter("x", -3, 5, {}), magnitude_parameter("m", 0x1p-20, 0x1p10, false, {}),
         magnitude_parameter("s", 0x1p-20, 0x1p10, true, {})}) {
     for (const double u : {0.0, 0.2, 0.51, 0.9, 1.0}) {
       EXPECT_NEAR(parameter.share(parameter.at(u)), u, 1e-9) << parameter.name;

@@ -47,7 +47,9 @@ void hold_channel(const Promise& promise, double measured, const NumberFormat& f
   const double end = rounded_outward(above ? promise.range.upper : promise.range.lower, above, format);
   const double bound = std::abs(end - promise.value);
   const double error = std::abs(measured - promise.value);
-  const double ratio = !std::isfinite(error) ? infinity : error == 0 ? 0 : error / bound;
+  // A value below the smallest normal number that came out 0 was flushed, which is no error.
+  const bool flushed = measured == 0 && std::abs(promise.value) < format.smallest_normal();
+  const double ratio = !std::isfinite(error) ? infinity : error == 0 || flushed ? 0 : error / bound;
   if (!worst.compared || ratio > worst.ratio) {
     worst.ratio = ratio;
     worst.value = promise.value;

@@ -67,6 +67,16 @@ TEST(FunctionSamples, AnEndThatIsNoNumberOfTheFormatIsRoundedOutward) {
   EXPECT_EQ(judged(samples, measured(1 + 5 * 0x1p-23F, 1, 1, 1)).status, Status::Fail);
 }
 
+TEST(FunctionSamples, AFlushedValueIsNoError) {
+  FunctionSamples samples = four_samples();
+  samples.promises[0] = {{0x1p-127, {0, 0x1p-126}, 0x1p-127}};
+  const Verdict flushed = judged(samples, measured(0, 1, 1, 1));
+  EXPECT_EQ(flushed.status, Status::Pass);
+  EXPECT_EQ(flushed.bound_ratio, 0);
+  samples.promises[0] = {{0x1p-120, {0x1p-121, 0x1p-119}, 0x1p-120}};
+  EXPECT_EQ(judged(samples, measured(0, 1, 1, 1)).status, Status::Fail) << "a normal number must not vanish";
+}
+
 TEST(FunctionSamples, WhatIsNotFiniteFailsWhereAValueIsPromisedAndCountsEverywhere) {
   const FunctionSamples samples = four_samples();
   for (const float bad : {nan_value, std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()}) {

@@ -55,13 +55,15 @@ code { font: 12px ui-monospace, "DejaVu Sans Mono", monospace; overflow-wrap: an
 article.function { grid-template-columns: 1fr; }
 article.function .pictures { max-width: none; flex-wrap: nowrap; }
 article.function figure { flex: none; }
+article.function figure:has(svg) { flex: 1; min-width: 0; }
+article.function figure:has(svg) figcaption { text-align: left; padding-left: 40px; }
 article.function details { grid-column: 1; }
 .wide { overflow-x: auto; }
 table.formulation { background: var(--paper); width: 100%; }
 table.formulation td, table.formulation th { padding: 5px 12px 5px 0; vertical-align: middle; }
 table.formulation th[colspan] { text-align: center; }
 table.formulation td:first-child { padding-left: 12px; }
-table.formulation img { width: 84px; height: 84px; }
+table.formulation img { width: 84px; height: 84px; margin: 0 auto; }
 table.formulation figcaption { font-size: 11px; }
 @media (max-width: 760px) { article { grid-template-columns: 1fr; } details { grid-column: 1; } }
 )css";
