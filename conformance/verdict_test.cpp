@@ -169,7 +169,7 @@ TEST_F(VerdictTest, TooManyExcludedAreToldByTheirReasons) {
   }
   golden_.at(0, 0, 7) = 1.0F;
   const Verdict v = verdict();
-  EXPECT_EQ(v.excluded_by, (std::array<std::int64_t, 4>{0, 1, 5, 5}));
+  EXPECT_EQ(v.excluded_by, (std::array<std::int64_t, 5>{0, 1, 5, 5, 0}));
   EXPECT_NE(
       v.message.find("11 of 100 covered pixels are excluded, more than may be: 1 at edges, 5 where an alpha mask may fall either way, "
                      "5 where a texture without mipmaps"),

@@ -4,19 +4,24 @@
 
 namespace sheen::brdf {
 
+/// Up to this alpha_g, a sheen_roughness of 3e-5, the lobe counts as nothing: what is left of it lies within 1e-4 of N.H = 0, where 1 /
+/// alpha_g leaves the range of floats soon.
+inline constexpr double smallest_alpha_g = 9e-10;
+
 /// charlie_distribution() of the squares of cosine and sine.
 template <class Real>
 Real charlie_distribution_of_squares(Real alpha_g, Real cos2, Real sin2_theta_h) {
   const Real p = Real(0.5) / alpha_g;
   // log1p keeps the digits of a small cosine that "1 - cos2" loses and that a large exponent would magnify.
-  const Real log_sin2 = select(cos2 < Real(0.25), log1p(-min(cos2, Real(0.25))), log(sin2_theta_h));
+  // At N.H = 1, where D is 0, a logarithm of 1e-30 leaves less than 1e-15 of it.
+  const Real log_sin2 = select(cos2 < Real(0.25), log1p(-min(cos2, Real(0.25))), log(max(sin2_theta_h, Real(1e-30))));
   const Real d = (Real(1) + p) * exp(p * log_sin2) * Real(1 / pi);
-  return select(alpha_g > Real(0), d, Real(0));
+  return select(alpha_g > Real(smallest_alpha_g), d, Real(0));
 }
 
 /// The "Charlie" distribution D of the sheen lobe, in 1/sr: an exponentiated sinusoid, Conty Estevez and Kulla 2017, equation 2
 /// (KHR_materials_sheen, "Sheen distribution"): (2 + 1/alpha_g) sin(theta_h)^(1/alpha_g) / (2 pi).
-/// For alpha_g = 0 it returns the limit for N.H > 0, which is 0 (the printed code divides by zero there).
+/// For alpha_g = 0 and up to smallest_alpha_g it returns the limit for N.H > 0, which is 0 (the printed code divides by zero at 0).
 /// @param alpha_g   square of sheen_roughness, [0, 1]
 /// @param n_dot_h   cosine of normal and half vector, [0, 1]
 /// @param sin2_theta_h  its squared sine, |N x H|^2, [0, 1]; given apart because 1 - n_dot_h^2 cancels near N.H = 1

@@ -66,7 +66,7 @@ typename Bounded<Precision>::Error exponential_error(const Bounded<Precision>& x
   return Bounded<Precision>::Error::ulps(Precision::exp_ulps + exp_ulps_per_argument * x.range().magnitude());
 }
 
-/// e^x within (3 + 2 |x|) ulp, in mediump (2 + 2 |x|).
+/// e^x within (4 + 2 |x|) ulp, in mediump (3 + 2 |x|).
 template <class Precision>
 Bounded<Precision> exp(const Bounded<Precision>& x) {
   const double value = std::exp(x.center());
@@ -130,7 +130,7 @@ Bounded<Precision> pow(const Bounded<Precision>& x, const Bounded<Precision>& y)
 
 /// x^y for y in [0.02, 1] as a shader computes it that takes 0 where x is not positive, so that x may be or touch 0: pow of what is certain
 /// to be positive; else, with u the largest x may be, from 0 to the most that pow makes of [u / 2, u]. Of smaller x it makes no more: log2
-/// of the smallest normal number is -126, so 4 ulp of it and (3 + 2 y 126) ulp of exp2 are in all below a share of 1e-4 y + 1e-6, and 2^-y
+/// of the smallest normal number is -126, so 4 ulp of it and (4 + 2 y 126) ulp of exp2 are in all below a share of 1e-4 y + 1e-6, and 2^-y
 /// is less than 1 by more than that. In mediump, whose smallest is 2^-13, they come to 0.2 y + 0.008 at most.
 template <class Precision>
 Bounded<Precision> pow_from_zero(const Bounded<Precision>& x, const Bounded<Precision>& y) {

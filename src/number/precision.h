@@ -30,7 +30,9 @@ struct Highp {
   static constexpr int max_exponent = 127;
   static constexpr double smallest_divisor = 0x1p-126;
   static constexpr double largest_divisor = 0x1p126;
-  static constexpr double exp_ulps = 3;
+  /// The table says 3. The conformance tests round the ends of what that allows outward to numbers of the format, so no implementation is
+  /// held to less than one more (tcu::FloatFormat::convert); Mesa's llvmpipe makes use of it.
+  static constexpr double exp_ulps = 4;
   /// The table says 3. 4 pass the conformance tests with a quality warning, so no implementation is held to less.
   static constexpr double log_ulps = 4;
   static constexpr double log_near_one = 0x1p-21;
@@ -45,7 +47,7 @@ struct Mediump {
   static constexpr int max_exponent = 13;
   static constexpr double smallest_divisor = 0x1p-13;
   static constexpr double largest_divisor = 0x1p12;
-  static constexpr double exp_ulps = 2;
+  static constexpr double exp_ulps = 3;  ///< 2, and one more as above
   static constexpr double log_ulps = 2;
   static constexpr double log_near_one = 0x1p-7;
   static constexpr bool holds_its_format = false;
