@@ -1,0 +1,67 @@
+#include "golden/texture_box.h"
+
+#include <cmath>
+#include <random>
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+#include "golden/test_scenes.h"
+
+namespace sheen::golden {
+namespace {
+
+scene::Scene noise(const scene::Sampler& sampler) {
+  scene::Scene s;
+  std::mt19937 random(4);
+  test::add_texture(s, test::picture(16, 8, [&](int, int) { return glm::ivec4(random() % 256, random() % 256, random() % 256, 255); }),
+                    sampler);
+  return s;
+}
+
+TEST(TextureBox, HoldsEveryCoordinateInsideAndReachesWhatTheyReach) {
+  using scene::Filter;
+  using scene::MipFilter;
+  using scene::Wrap;
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> within(-1.0, 1.0);
+  for (const Filter filter : {Filter::Nearest, Filter::Linear}) {
+    for (const MipFilter mip : {MipFilter::None, MipFilter::Nearest, MipFilter::Linear}) {
+      const scene::Scene s = noise({Wrap::MirroredRepeat, Wrap::Repeat, filter, filter, mip});
+      const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Srgb);
+      for (const double reach : {1e-5, 0.02, 0.3}) {
+        for (int i = 0; i < 20; ++i) {
+          const glm::dvec2 uv(2.0 * within(random), 2.0 * within(random));
+          const double lambda = 2.0 * within(random);
+          const Spread spread = sample_box(texture, uv, {reach, 0.5 * reach}, lambda);
+          EXPECT_EQ(spread.value, sample(texture, uv, lambda));
+          glm::dvec4 farthest(0.0);
+          for (int k = 0; k < 400; ++k) {
+            const glm::dvec2 to = k < 4 ? glm::dvec2(k % 2 == 0 ? 1 : -1, k < 2 ? 1 : -1) : glm::dvec2(within(random), within(random));
+            const glm::dvec4 there = sample(texture, uv + glm::dvec2(reach, 0.5 * reach) * to, lambda);
+            farthest = glm::max(farthest, glm::abs(there - spread.value));
+          }
+          for (int c = 0; c < 4; ++c) {
+            EXPECT_LE(farthest[c], spread.radius[c]) << reach;
+            if (filter == Filter::Linear && reach < 0.1) {
+              EXPECT_LE(spread.radius[c], 1.3 * farthest[c] + 1e-4) << "not much wider: " << reach;
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(TextureBox, SeesATexelThatTheBoxEncloses) {
+  scene::Scene s;
+  test::add_texture(s, test::picture(8, 1, [](int x, int) { return glm::ivec4(glm::ivec3(x == 4 ? 255 : 0), 255); }),
+                    {scene::Wrap::Repeat, scene::Wrap::Repeat, scene::Filter::Linear, scene::Filter::Linear, scene::MipFilter::None});
+  const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Linear);
+  // From one dark texel's middle to the other side's: the bright one lies between.
+  EXPECT_NEAR(sample_box(texture, {4.1 / 8, 0.5}, {1.0 / 8, 0.1}, -1.0).value.x, 0.6, 1e-9);
+  EXPECT_NEAR(sample_box(texture, {3.5 / 8, 0.5}, {1.2 / 8, 0.1}, -1.0).radius.x, 1.0, 1e-5);
+}
+
+}  // namespace
+}  // namespace sheen::golden
