@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "conformance/function_parameters.h"
-#include "number/bounded.h"
+#include "number/bounded_conversion.h"
 #include "renderer/renderer.h"
 
 namespace sheen::conformance {

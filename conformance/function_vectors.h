@@ -8,7 +8,7 @@
 
 #include "conformance/function_spec.h"
 #include "golden/vec3.h"
-#include "number/bounded.h"
+#include "number/bounded_conversion.h"
 
 // What the lists of functions are written with.
 

@@ -36,6 +36,10 @@ Real charlie_distribution(Real alpha_g, Real n_dot_h, Real sin2_theta_h) {
 template <class Real>
 struct LambdaCurve {
   Real a, b, c, d, e;
+  Real middle;  ///< l(0.5), about which the second branch mirrors the first
+
+  LambdaCurve() = default;
+  LambdaCurve(Real a_in, Real b_in, Real c_in, Real d_in, Real e_in) : a(a_in), b(b_in), c(c_in), d(d_in), e(e_in), middle(l(Real(0.5))) {}
 
   Real l(Real x) const { return a / (Real(1) + b * pow_from_zero(x, c)) + d * x + e; }
 
@@ -43,7 +47,7 @@ struct LambdaCurve {
   Real lambda(Real cos_theta) const {
     const auto grazing = cos_theta < Real(0.5);
     const Real curve = l(select(grazing, cos_theta, Real(1) - cos_theta));
-    return exp(select(grazing, curve, Real(2) * l(Real(0.5)) - curve));
+    return exp(select(grazing, curve, Real(2) * middle - curve));
   }
 };
 

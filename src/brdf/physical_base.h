@@ -31,8 +31,8 @@ class PhysicalBase {
     metal_ms_ = ms(base.color, Real(1));
     transmitted_view_ = transmitted(view);
     const Real all = transmitted(average);
-    // Nothing is transmitted where f0 = 1 (ior 0).
-    per_transmitted_ = select(all > Real(0), Real(1) / select(all > Real(0), all, Real(1)), Real(0));
+    // Nothing is transmitted where f0 = 1 (ior 0), and a millionth is as good as nothing.
+    per_transmitted_ = Real(1) / max(all, Real(1e-6));
   }
 
   /// In 1/sr; arguments as for base_brdf. @param light  albedo of the lobe at N.L

@@ -30,6 +30,9 @@ struct AlbedoReader {
     return Lanes::load(c);
   }
 
+  /// Whether E(N.L) is certain to be no larger than E(N.V), so that it need not be read.
+  static bool is_smaller_for_light(const Real&, const Real&) { return false; }
+
   /// Albedo of the GGX lobe at a cosine.
   static brdf::LobeAlbedo<Real> ggx(const albedo::GgxInterpolant& ggx, const Real& cosine, const Real& alpha) {
     return each([&ggx](double c, double a) { return ggx(c, a); }, cosine, alpha);

@@ -7,7 +7,7 @@
 #include "albedo/table.h"
 #include "golden/albedo_reader.h"
 #include "golden/shade.h"
-#include "number/bounded.h"
+#include "number/bounded_conversion.h"
 
 namespace sheen::golden {
 
@@ -22,6 +22,12 @@ struct AlbedoReader<number::Bounded<Precision>> {
     const auto e = [albedo](double c, double r) { return (*albedo)(c, r); };
     const auto error = [](double value, double c, double r) { return albedo::lookup_error(value, c, r); };
     return read(e, error, cosine, sheen_roughness);
+  }
+
+  /// E falls with its cosine from 0.008 up, for every visibility and roughness (KHR_materials_sheen leaves that unsaid;
+  /// directional_albedo_test holds it).
+  static bool is_smaller_for_light(const B& n_dot_l, const B& n_dot_v) {
+    return n_dot_v.is_bounded() && n_dot_l.is_bounded() && n_dot_v.range().lower >= 0.008 && n_dot_l.range().lower >= n_dot_v.range().upper;
   }
 
   static brdf::LobeAlbedo<B> ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "brdf/math.h"
-#include "number/bounded.h"
+#include "number/bounded_conversion.h"
 
 namespace sheen::brdf {
 

@@ -56,6 +56,7 @@ struct AlbedoReader<number::test::Perturbed<Precision>> {
   static P sheen(const albedo::Interpolant* albedo, const albedo::Curve*, const P& cosine, const P& roughness) {
     return P((*albedo)(cosine.value(), roughness.value()));
   }
+  static bool is_smaller_for_light(const P&, const P&) { return false; }
   static brdf::LobeAlbedo<P> ggx(const albedo::GgxInterpolant&, const P&, const P&) { return {}; }
   static brdf::LobeAlbedo<P> ggx_average(const albedo::GgxInterpolant&, const P&) { return {}; }
 };

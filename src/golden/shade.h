@@ -255,7 +255,10 @@ class Shading {
     const Color base = base_brdf(n_dot_l, half) * Real(factors.base);
     const Color irradiance = light.irradiance * below_;
     if (sheen_) {
-      const Real e_l = sheen_->two_directions() || wants_e_l ? sheen_->e_l(lit, n_dot_l) : Real(0);
+      const bool needs_e_l = sheen_->two_directions() || wants_e_l;
+      const Real e_l = !needs_e_l                                                         ? Real(0)
+                       : AlbedoReader<Real>::is_smaller_for_light(n_dot_l, lobe_.n_dot_v) ? sheen_->e_v()
+                                                                                          : sheen_->e_l(lit, n_dot_l);
       part.e_l = select(lit, e_l, Real(0));
       const Lobe d = sheen_->lobe().distribution(half.n_dot_h, half.sin2_theta_h) * Lobe(factors.distribution);
       const Lobe v = sheen_->lobe().visibility_times_n_dot_l(As<Lobe>::number(n_dot_l)) * Lobe(factors.visibility);
@@ -274,11 +277,9 @@ class Shading {
   Color base_brdf(const Real& n_dot_l, const HalfAngles<Lobe>& half) const {
     if (physical_) {
       const auto albedo = AlbedoReader<Lobe>::ggx(*lighting_.ggx, As<Lobe>::number(n_dot_l), base_.alpha);
-      return As<Real>::color(
-          physical_->brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
+      return As<Real>::color(physical_->brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
     }
-    return As<Real>::color(
-        brdf::base_brdf(base_, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
+    return As<Real>::color(brdf::base_brdf(base_, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
   }
 
   template <class Mask>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "number/lanes.h"
 #include "number/precision.h"
 #include "number/truth.h"
 
@@ -98,8 +97,12 @@ class Bounded {
     if (a.is_exact() && b.is_exact() && is_exact_sum(a.center_, b.center_) && is_representable<Precision>(center)) return exactly(center);
     if (Precision::holds_its_format && a.is_exact() && a.center_ == 0) return b;
     if (Precision::holds_its_format && b.is_exact() && b.center_ == 0) return a;
-    const Range range{sum_below(a.range_.lower, b.range_.lower), -sum_below(-a.range_.upper, -b.range_.upper)};
-    return rounded({center, a.shift_x_ + b.shift_x_, a.shift_y_ + b.shift_y_, a.radius_ + b.radius_, range}, Error::ulps(1), true);
+    Bounded sum(center, a.shift_x_ + b.shift_x_, a.shift_y_ + b.shift_y_, a.radius_ + b.radius_);
+    if (!sum.round_narrow()) {
+      const Range range{sum_below(a.range_.lower, b.range_.lower), -sum_below(-a.range_.upper, -b.range_.upper)};
+      sum.round_within(range);
+    }
+    return sum;
   }
 
   friend Bounded operator-(const Bounded& a, const Bounded& b) { return a + -b; }
@@ -115,11 +118,12 @@ class Bounded {
     const double first_order = std::abs(a.center_) * b.displacement() + std::abs(b.center_) * a.displacement();
     const double radius = std::abs(a.center_) * b.radius_ + std::abs(b.center_) * a.radius_ +
                           (a.displacement() + a.radius_) * (b.displacement() + b.radius_) + first_order * 0x1p-50;
-    // One and the same variable squared is not negative.
-    const Range range = &a == &b ? square(a.range_) : product(a.range_, b.range_);
-    return rounded(
-        {center, a.center_ * b.shift_x_ + b.center_ * a.shift_x_, a.center_ * b.shift_y_ + b.center_ * a.shift_y_, radius, range},
-        Error::ulps(1), true);
+    Bounded made(center, a.center_ * b.shift_x_ + b.center_ * a.shift_x_, a.center_ * b.shift_y_ + b.center_ * a.shift_y_, radius);
+    if (!made.round_narrow()) {
+      // One and the same variable squared is not negative.
+      made.round_within(&a == &b ? square(a.range_) : product(a.range_, b.range_));
+    }
+    return made;
   }
 
   /// With q = a0 / b0 and d = d_a - q d_b:  a/b - q - d/b0 = (e_a - q e_b - (d/b0) (d_b + e_b)) / b.
@@ -228,6 +232,28 @@ class Bounded {
   static double below(double x) { return x - std::abs(x) * 0x1p-52; }
 
  private:
+  /// An exact result, not yet rounded.
+  Bounded(double center, double shift_x, double shift_y, double radius)
+      : center_(center), shift_x_(shift_x), shift_y_(shift_y), radius_(radius) {}
+
+  /// Rounds the exact result of a sum or product, if the form alone tells that it lies far from 0 beside its width, and from either end of
+  /// the format: then its interval adds nothing. Most results do.
+  bool round_narrow() {
+    const double magnitude = std::abs(center_);
+    const double slack = (magnitude + displacement()) * 0x1p-50;
+    const double reach = (displacement() + radius_) * (1 + 0x1p-48) + slack;
+    if (!(reach <= 0x1p-8 * magnitude && magnitude >= 4 * smallest_normal<Precision> && magnitude <= 0.25 * largest_finite<Precision>)) {
+      return false;
+    }
+    const double added = ulp<Precision>(magnitude + reach);
+    radius_ = (radius_ + added) * (1 + 0x1p-40) + slack;
+    const double total = (reach + added) * (1 + 0x1p-50) + slack;
+    range_ = {center_ - total, center_ + total};
+    return true;
+  }
+  /// Rounds it, its range being known too.
+  void round_within(const Range& range) { *this = rounded({center_, shift_x_, shift_y_, radius_, range}, Error::ulps(1), true); }
+
   /// The radius from the exact result's and what is added to it. A few roundings of double, in the centre and in what was computed on the
   /// way here, are far below the factors' room; and what was overestimated by products of radii lies no farther off than the range's ends.
   void settle(double exact_radius, double added, bool clip) {
@@ -369,27 +395,5 @@ class Bounded {
   double center_ = 0, shift_x_ = 0, shift_y_ = 0, radius_ = 0;
   Range range_ = {0, 0};
 };
-
-template <class Precision>
-struct Lanes<Bounded<Precision>> {
-  static constexpr std::size_t count = 1;
-  static Bounded<Precision> load(const double* values) { return Bounded<Precision>(*values); }
-};
-
-/// The value as a variable of another precision holds it: correctly rounded, from mediump to highp exact.
-template <class To, class From>
-Bounded<To> converted(const Bounded<From>& x) {
-  if (!x.is_bounded()) return Bounded<To>::unbounded(x.center());
-  const bool exact = To::fraction_bits >= From::fraction_bits || (x.is_exact() && is_representable<To>(x.center()));
-  using Error = typename Bounded<To>::Error;
-  return Bounded<To>::rounded({x.center(), x.shift_x(), x.shift_y(), x.radius(), x.range()}, exact ? Error::absolute(0, 0) : Error::ulps(1),
-                              true);
-}
-
-/// The same, to the type that the second argument points to; it is not looked at.
-template <class To, class From>
-Bounded<To> converted_to(const Bounded<From>& x, const Bounded<To>*) {
-  return converted<To>(x);
-}
 
 }  // namespace sheen::number

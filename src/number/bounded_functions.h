@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "number/bounded.h"
+#include "number/bounded_conversion.h"
 
 // The built-in functions of number::Bounded, by the rules of number/precision.h. The formulas of a shader find them by argument-dependent
 // lookup.
