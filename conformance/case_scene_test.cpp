@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -35,7 +37,7 @@ glm::dvec3 vec(const std::array<float, 3>& v) {
 }
 
 TEST(Shapes, WindCounterClockwiseAboutTheirNormals) {
-  for (const char* name : {"sphere", "cloth", "ring", "square"}) {
+  for (const char* name : {"sphere", "cloth", "ring", "square", "slivers"}) {
     const Shape shape = make_shape(name);
     for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
       const glm::dvec3 a = vec(shape.positions[shape.indices[i]]);
@@ -46,7 +48,7 @@ TEST(Shapes, WindCounterClockwiseAboutTheirNormals) {
 }
 
 TEST(Shapes, FramesAreOrthonormalAndFollowTheTexture) {
-  for (const char* name : {"sphere", "cloth", "ring", "square"}) {
+  for (const char* name : {"sphere", "cloth", "ring", "square", "slivers"}) {
     const Shape shape = make_shape(name);
     for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
       const std::size_t a = shape.indices[i];
@@ -62,6 +64,43 @@ TEST(Shapes, FramesAreOrthonormalAndFollowTheTexture) {
       const double dv = static_cast<double>(shape.texcoord_0[c][1]) - shape.texcoord_0[a][1];
       ASSERT_LT(glm::dot(edge, b) * dv, 0) << name << " triangle " << i / 3;
     }
+  }
+}
+
+TEST(Shapes, SliversAreFiveHundredTimesAsLongAsHigh) {
+  const Shape shape = make_shape("slivers");
+  for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
+    const glm::dvec3 a = vec(shape.positions[shape.indices[i]]);
+    glm::dvec3 least = a;
+    glm::dvec3 most = a;
+    for (std::size_t k = 1; k < 3; ++k) {
+      least = glm::min(least, vec(shape.positions[shape.indices[i + k]]));
+      most = glm::max(most, vec(shape.positions[shape.indices[i + k]]));
+    }
+    // Positions are floats: a height of 0.002 is the difference of two of up to 1.
+    ASSERT_NEAR((most - least).x / (most - least).y, 500, 500 * 0x1p-23 / 0.002) << "triangle " << i / 3;
+  }
+}
+
+TEST(Shapes, BrokenNormalsAreThoseOfASquareAtEveryLength) {
+  const Shape shape = make_shape("broken_normals");
+  std::map<float, int> lengths;
+  for (const std::array<float, 3>& normal : shape.normals) {
+    const double length = glm::length(vec(normal));
+    for (const float known : {0.0F, 1e-6F, 1.0F, 1000.0F}) {
+      lengths[known] += std::abs(length - known) <= 1e-6 * known ? 1 : 0;
+    }
+    ASSERT_GE(normal[2], 0.0F) << "none faces away";
+  }
+  int told = 0;
+  for (const auto& [length, count] : lengths) {
+    EXPECT_GT(count, 0) << length;
+    told += count;
+  }
+  EXPECT_EQ(told, static_cast<int>(shape.normals.size())) << "and there is no other length";
+  for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
+    const glm::dvec3 a = vec(shape.positions[shape.indices[i]]);
+    ASSERT_GT(glm::cross(vec(shape.positions[shape.indices[i + 1]]) - a, vec(shape.positions[shape.indices[i + 2]]) - a).z, 0);
   }
 }
 
@@ -106,6 +145,32 @@ TEST(CaseScene, EveryCoreCaseLoadsAndIsWhatItsDescriptionSays) {
     ASSERT_EQ(scene.cameras.size(), 1U) << one.name;
     ASSERT_EQ(scene.lights.size(), one.description["lights"].size()) << one.name;
   }
+}
+
+TEST(CaseScene, OfTheExtremesThoseAreRefusedThatBreakARuleAndNoOthers) {
+  const TestFolder folder;
+  for (const Case& one : load_suite("extremes").cases) {
+    const std::filesystem::path file = write_scene(one, folder.path());
+    if (one.refused) {
+      EXPECT_THROW(scene::load_gltf(file), scene::Error) << one.name;
+    } else {
+      EXPECT_NO_THROW(scene::load_gltf(file)) << one.name;
+    }
+  }
+}
+
+TEST(CaseScene, NumbersReachTheSceneToTheirLastBit) {
+  const TestFolder folder;
+  std::map<std::string, double> found;
+  for (const Case& one : load_suite("extremes").cases) {
+    if (one.name.starts_with("metallic.") && one.name.ends_with(".highp")) {
+      found[one.name] = scene::load_gltf(write_scene(one, folder.path())).materials.at(0).metallic_factor;
+    }
+  }
+  EXPECT_EQ(found.at("metallic.least_normal.highp"), 0x1p-126);
+  EXPECT_EQ(found.at("metallic.1_less_an_ulp.highp"), 1 - 0x1p-24);
+  EXPECT_EQ(found.at("metallic.1.highp"), 1);
+  EXPECT_EQ(found.at("metallic.0.highp"), 0);
 }
 
 TEST(CaseScene, CameraLooksAtItsTargetAndLightsComeFromWhereTheyShould) {

@@ -84,7 +84,27 @@ TEST_F(GoldenStoreTest, OtherSettingsHaveAnotherPlace) {
   store.computed(scene_, hash_, other);
   other.sheen.scaling = albedo::AlbedoScaling::View;
   store.computed(scene_, hash_, other);
-  EXPECT_EQ(std::distance(fs::directory_iterator(cache()), fs::directory_iterator()), 4);
+  other.precision = golden::Precision::Mediump;
+  store.computed(scene_, hash_, other);
+  EXPECT_EQ(std::distance(fs::directory_iterator(cache()), fs::directory_iterator()), 5);
+}
+
+TEST_F(GoldenStoreTest, ACaseOfMediumpHasTheSameGoldenUnderWiderBounds) {
+  const GoldenStore store(cache(), {}, "core");
+  EXPECT_EQ(settings_.precision, golden::Precision::Highp) << "what a case does not say is highp";
+  case_.precision = golden::Precision::Mediump;
+  const golden::Settings mediump = golden_settings(case_, case_.model, 8);
+  EXPECT_EQ(mediump.precision, golden::Precision::Mediump);
+  const image::Image narrow = store.computed(scene_, hash_, settings_);
+  const image::Image wide = store.computed(scene_, hash_, mediump);
+  int wider = 0;
+  for (int i = 0; i < 16 * 16; ++i) {
+    const auto at = [i](const image::Image& image, const char* name) { return image.at(i % 16, i / 16, image.channel(name)); };
+    ASSERT_EQ(at(wide, "G"), at(narrow, "G"));
+    ASSERT_GE(at(wide, "bound.G"), at(narrow, "bound.G"));
+    wider += at(wide, "bound.G") > at(narrow, "bound.G") ? 1 : 0;
+  }
+  EXPECT_GT(wider, 0);
 }
 
 TEST_F(GoldenStoreTest, ACacheThatCannotBeWrittenOnlyCostsTime) {

@@ -64,7 +64,9 @@ std::string cell_html(const std::optional<CaseFigures>& cell) {
   if (const std::optional<double> excluded = excluded_share(*cell)) {
     figures += (figures.empty() ? "excluded " : ", excluded ") + share(*excluded);
   }
-  return html + (figures.empty() ? "" : small(figures));
+  html += figures.empty() ? "" : small(figures);
+  // A law between pictures and a case that was refused have no bound.
+  return html + (cell->median_bound.value_or(0) > 0 ? small("median bound " + html_number(*cell->median_bound)) : "");
 }
 
 /// What the drivers that did not pass a case say of it.

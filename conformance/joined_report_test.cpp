@@ -10,7 +10,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 CaseFigures figures_of(Status status, double bound_ratio, const std::string& message = "") {
-  return {status, bound_ratio, 1e-4, 75, 25, message};
+  return {status, bound_ratio, 1e-4, bound_ratio / 1000, 75, 25, message};
 }
 
 JoinedRuns two_drivers() {
@@ -28,10 +28,19 @@ JoinedRuns two_drivers() {
 
 TEST(JoinedReport, ShowsEveryFigureOfEveryDriver) {
   const std::string html = joined_html(two_drivers());
-  for (const char* text : {"llvmpipe (LLVM)", "softpipe", "0.125", "7.5", "p99 0.0001, excluded 25 %", "second: the pixel at 3, 4",
-                           "1 fail, 1 missing", "2 pass", "not said"}) {
+  for (const char* text : {"llvmpipe (LLVM)", "softpipe", "0.125", "7.5", "p99 0.0001, excluded 25 %", "median bound 0.000125",
+                           "median bound 0.0075", "second: the pixel at 3, 4", "1 fail, 1 missing", "2 pass", "not said"}) {
     EXPECT_THAT(html, HasSubstr(text));
   }
+}
+
+TEST(JoinedReport, NoBoundIsShownWhereNoneWasHeld) {
+  JoinedRuns joined = two_drivers();
+  for (CaseRow& row : joined.cases) {
+    row.cells[0]->median_bound = std::nullopt;
+  }
+  joined.cases[0].cells[1]->median_bound = 0;
+  EXPECT_THAT(joined_html(joined), Not(HasSubstr("median bound")));
 }
 
 TEST(JoinedReport, ARowCanBeFoundByEveryStatusInIt) {

@@ -123,6 +123,7 @@ CaseFigures read_figures(const Member& one) {
   figures.status = parse_status(one);
   figures.bound_ratio = one.number("bound_ratio");
   figures.p99_rel = one.number("p99_rel");
+  figures.median_bound = one.number("median_bound");
   figures.compared_pixels = one.count<std::int64_t>("compared_pixels");
   figures.excluded_pixels = one.count<std::int64_t>("excluded_pixels");
   figures.message = one.string("message");
@@ -234,6 +235,7 @@ json cell_json(const std::optional<CaseFigures>& cell) {
   return {{"status", to_string(cell->status)},
           {"bound_ratio", value_or_null(cell->bound_ratio)},
           {"p99_rel", value_or_null(cell->p99_rel)},
+          {"median_bound", value_or_null(cell->median_bound)},
           {"compared_pixels", value_or_null(cell->compared_pixels)},
           {"excluded_pixels", value_or_null(cell->excluded_pixels)},
           {"message", cell->message}};

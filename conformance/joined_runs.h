@@ -28,8 +28,9 @@ struct RunFolder {
 /// What one run says of one case.
 struct CaseFigures {
   Status status = Status::Invalid;
-  std::optional<double> bound_ratio;  ///< nothing where no picture was compared, or an error was more than any multiple of its bound
-  std::optional<double> p99_rel;      ///< 99th percentile of the relative errors
+  std::optional<double> bound_ratio;   ///< nothing where no picture was compared, or an error was more than any multiple of its bound
+  std::optional<double> p99_rel;       ///< 99th percentile of the relative errors
+  std::optional<double> median_bound;  ///< median of the bounds, relative; 0 where there is no golden
   std::optional<std::int64_t> compared_pixels, excluded_pixels;
   std::string message;
 };
@@ -75,8 +76,8 @@ JoinedRuns join_runs(const std::vector<RunFolder>& runs);
 
 /// The same for programs to read:
 /// `{drivers[{name,renderer,version,subpixel_bits,mediump_bits,seconds,summary{...,missing},bound_ratio{median,
-/// p99,worst},excluded_share,folders[]}], cases[{suite,name,drivers{NAME:{status,bound_ratio,p99_rel,compared_pixels,excluded_pixels,
-/// message} or null}}]}`.
+/// p99,worst},excluded_share,folders[]}], cases[{suite,name,drivers{NAME:{status,bound_ratio,p99_rel,median_bound,
+/// compared_pixels,excluded_pixels,message} or null}}]}`.
 std::string joined_json(const JoinedRuns& joined);
 
 /// Share of the covered pixels that were left out; nothing where no picture was compared.

@@ -22,6 +22,7 @@ CaseResult result_of(const std::string& name, Status status, double bound_ratio 
   Verdict verdict;
   verdict.bound_ratio = bound_ratio;
   verdict.p99_rel = 1e-5;
+  verdict.median_bound = 2e-4;
   verdict.compared_pixels = 90;
   verdict.excluded_pixels = 10;
   one.verdict = verdict;
@@ -83,6 +84,7 @@ TEST_F(JoinedRunsTest, WhatARunWritesIsReadBack) {
   EXPECT_EQ(figures.status, Status::Pass);
   EXPECT_EQ(figures.bound_ratio, 0.25);
   EXPECT_EQ(figures.p99_rel, 1e-5);
+  EXPECT_EQ(figures.median_bound, 2e-4);
   EXPECT_EQ(excluded_share(figures), 0.1);
 }
 
@@ -102,6 +104,7 @@ TEST_F(JoinedRunsTest, ACaseThatOneDriverLacksIsMissingAndNotPassed) {
   const json root = json::parse(joined_json(joined));
   EXPECT_TRUE(root["cases"][0]["drivers"]["some"].is_null());
   EXPECT_EQ(root["cases"][0]["drivers"]["all"]["status"], "pass");
+  EXPECT_EQ(root["cases"][0]["drivers"]["all"]["median_bound"], 2e-4);
   EXPECT_EQ(root["drivers"][1]["summary"]["missing"], 1);
 }
 
@@ -166,7 +169,7 @@ TEST_F(JoinedRunsTest, AFileThatIsNoResultsIsRefusedByNameElementAndRule) {
     lacking.erase(key);
     EXPECT_THAT(refusal_of(lacking.dump()), testing::HasSubstr(std::string("needs '") + key + "'"));
   }
-  for (const char* key : {"name", "status", "bound_ratio", "p99_rel", "compared_pixels", "excluded_pixels", "message"}) {
+  for (const char* key : {"name", "status", "bound_ratio", "p99_rel", "median_bound", "compared_pixels", "excluded_pixels", "message"}) {
     json lacking = good;
     lacking["cases"][0].erase(key);
     EXPECT_THAT(refusal_of(lacking.dump()), testing::AllOf(testing::HasSubstr("cases[0]"), testing::HasSubstr(key)));
@@ -180,6 +183,7 @@ TEST_F(JoinedRunsTest, AFileThatIsNoResultsIsRefusedByNameElementAndRule) {
   EXPECT_THAT(refusal_of(with("/cases/0", 1)), testing::HasSubstr("cases[0]: must be an object"));
   EXPECT_THAT(refusal_of(with("/cases/0/status", "good")), testing::HasSubstr("cases[0] 'first': unknown status 'good'"));
   EXPECT_THAT(refusal_of(with("/cases/0/bound_ratio", -1)), testing::HasSubstr("bound_ratio"));
+  EXPECT_THAT(refusal_of(with("/cases/0/median_bound", "small")), testing::HasSubstr("median_bound"));
   EXPECT_THAT(refusal_of(with("/cases/0/excluded_pixels", 0.5)), testing::HasSubstr("excluded_pixels"));
   EXPECT_THAT(refusal_of(with("/context/subpixel_bits", 5000000000)), testing::HasSubstr("subpixel_bits"));
   EXPECT_THAT(refusal_of(with("/context/renderer", 7)), testing::HasSubstr("renderer"));

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "conformance/html.h"
-
 #include "conformance/report_function.h"
 
 namespace sheen::conformance {
@@ -80,6 +79,12 @@ std::string figures(const CaseResult& one) {
     html += figure(one.scenes.empty() ? "error / bound" : "deviation / tolerance", number(v.bound_ratio)) +
             figure("max abs", number(v.max_abs)) + figure("max rel", number(v.max_rel)) + figure("p99 rel", number(v.p99_rel)) +
             figure("compared", std::to_string(v.compared_pixels)) + figure("excluded", std::to_string(v.excluded_pixels));
+    if (v.median_bound > 0) {
+      html += figure("median bound", number(v.median_bound));
+    }
+    if (v.negative_pixels > 0) {
+      html += figure("negative", std::to_string(v.negative_pixels));
+    }
     if (v.vague_pixels > 0) {
       html += figure("vague", std::to_string(v.vague_pixels));
     }

@@ -50,6 +50,9 @@ TEST(Results, JsonHasTheMembersOfTheContract) {
   verdict.worst_y = 4;
   verdict.compared_pixels = 9;
   verdict.bound_ratio = 0.5;
+  verdict.median_bound = 0.25;
+  verdict.vague_pixels = 2;
+  verdict.negative_pixels = 1;
   record.cases[0].verdict = verdict;
   const json root = json::parse(results_json(record));
   for (const char* key : {"suite", "viewer", "context", "summary", "seconds", "cases"}) {
@@ -60,14 +63,30 @@ TEST(Results, JsonHasTheMembersOfTheContract) {
   }
   EXPECT_EQ(root["summary"]["crash"], 1);
   for (const json& one : root["cases"]) {
-    for (const char* key : {"name", "status", "max_abs", "max_rel", "p99_rel", "worst_pixel", "bound_ratio", "compared_pixels",
-                            "excluded_pixels", "nonfinite_pixels", "identified", "seconds", "message"}) {
+    for (const char* key :
+         {"name", "status", "max_abs", "max_rel", "p99_rel", "worst_pixel", "bound_ratio", "compared_pixels", "excluded_pixels",
+          "nonfinite_pixels", "median_bound", "vague_pixels", "negative_pixels", "identified", "seconds", "message"}) {
       EXPECT_TRUE(one.contains(key)) << key;
     }
   }
   EXPECT_EQ(root["cases"][0]["worst_pixel"], json::array({3, 4}));
   EXPECT_EQ(root["cases"][0]["bound_ratio"], 0.5);
-  EXPECT_TRUE(root["cases"][1]["bound_ratio"].is_null()) << "nothing was compared";
+  EXPECT_EQ(root["cases"][0]["median_bound"], 0.25);
+  EXPECT_EQ(root["cases"][0]["vague_pixels"], 2);
+  EXPECT_EQ(root["cases"][0]["negative_pixels"], 1);
+  for (const char* key : {"bound_ratio", "median_bound", "vague_pixels", "negative_pixels"}) {
+    EXPECT_TRUE(root["cases"][1][key].is_null()) << key << ": nothing was compared";
+  }
+}
+
+TEST(Results, WhatWasLeftOutIsToldThoughNothingWasCompared) {
+  RunRecord record = record_of({Status::Pass});
+  record.cases[0].verdict = Verdict{};
+  record.cases[0].verdict->excluded_pixels = 40;
+  const json one = json::parse(results_json(record))["cases"][0];
+  EXPECT_EQ(one["excluded_pixels"], 40);
+  EXPECT_EQ(one["compared_pixels"], 0);
+  EXPECT_TRUE(one["bound_ratio"].is_null()) << "an error of 0 is a measured one";
 }
 
 TEST(Results, JsonStaysJsonWhateverTheNumbers) {
@@ -93,6 +112,29 @@ TEST(Report, HoldsItselfAndEscapesWhatAViewerSays) {
     EXPECT_EQ(html.find(outside), std::string::npos) << outside;
   }
   EXPECT_LT(html.find("case_0"), html.find("case_1")) << "failures first";
+}
+
+TEST(Report, ShowsTheMedianBoundAndWhatIsNegativeOfEachCaseThatHasThem) {
+  RunRecord record = record_of({Status::Fail, Status::Pass});
+  for (CaseResult& one : record.cases) {
+    one.verdict = Verdict{};
+  }
+  const auto times = [&record](const std::string& text) {
+    const std::string html = report_html(record);
+    int count = 0;
+    for (std::size_t at = html.find(text); at != std::string::npos; at = html.find(text, at + 1)) {
+      ++count;
+    }
+    return count;
+  };
+  EXPECT_EQ(times("median bound"), 0) << "a law between pictures has none";
+  record.cases[0].verdict->median_bound = 0.000125;
+  record.cases[1].verdict->median_bound = 0.00025;
+  record.cases[0].verdict->negative_pixels = 17;
+  EXPECT_EQ(times("median bound"), 2);
+  EXPECT_EQ(times("median bound <b>0.000125</b>"), 1);
+  EXPECT_EQ(times("median bound <b>0.00025</b>"), 1);
+  EXPECT_EQ(times("negative <b>17</b>"), 1);
 }
 
 TEST(Base64, IsThatOfItsRfc) {

@@ -18,15 +18,18 @@ json case_json(const CaseResult& one) {
   const bool measured = one.verdict && (one.verdict->compared_pixels > 0 || one.verdict->nonfinite_pixels > 0);
   const Verdict* verdict = measured ? &*one.verdict : nullptr;
   const auto figure = [verdict](auto Verdict::*member) { return verdict == nullptr ? json(nullptr) : json(verdict->*member); };
+  // Where every pixel was left out no error could be measured, but what was left out can be told.
+  const bool counted = measured || (one.verdict && one.verdict->excluded_pixels > 0);
+  const auto pixels = [&one, counted](auto Verdict::*member) { return counted ? json(*one.verdict.*member) : json(nullptr); };
   made["max_abs"] = figure(&Verdict::max_abs);
   made["max_rel"] = figure(&Verdict::max_rel);
   made["p99_rel"] = figure(&Verdict::p99_rel);
   made["bound_ratio"] = figure(&Verdict::bound_ratio);
   made["median_bound"] = figure(&Verdict::median_bound);
-  made["compared_pixels"] = figure(&Verdict::compared_pixels);
-  made["excluded_pixels"] = figure(&Verdict::excluded_pixels);
+  made["compared_pixels"] = pixels(&Verdict::compared_pixels);
+  made["excluded_pixels"] = pixels(&Verdict::excluded_pixels);
   made["vague_pixels"] = figure(&Verdict::vague_pixels);
-  made["negative_pixels"] = figure(&Verdict::negative_pixels);
+  made["negative_pixels"] = pixels(&Verdict::negative_pixels);
   made["nonfinite_pixels"] = figure(&Verdict::nonfinite_pixels);
   if (one.findings) {
     const FunctionCase& tested = one.findings->tested;

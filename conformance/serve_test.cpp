@@ -132,6 +132,33 @@ TEST_F(ServeTest, DrawsTheSceneAndTheSettingsAsTheyWereAltered) {
   EXPECT_GT(altered.at(2, 6, 0), plain.at(8, 6, 0) + 6.0F);
 }
 
+TEST_F(ServeTest, DrawsInThePrecisionOfTheRequestElseInItsOwn) {
+  std::vector<renderer::Precision> drawn;
+  ServeOptions options;
+  options.precision = "mediump";
+  options.alter = [&drawn](scene::Scene&, renderer::Settings& settings) { drawn.push_back(settings.precision); };
+  json asked = request("asked");
+  asked["settings"] = {{"precision", "highp"}};
+  json unknown = request("unknown");
+  unknown["settings"] = {{"precision", "lowp"}};
+  const std::vector<std::string> lines = lines_for(request("own").dump() + "\n" + asked.dump() + "\n" + unknown.dump() + "\n", options);
+  EXPECT_EQ(drawn, (std::vector<renderer::Precision>{renderer::Precision::Mediump, renderer::Precision::Highp}));
+  EXPECT_EQ(json::parse(lines.at(3))["status"], "failed");
+  EXPECT_NE(lines.at(3).find("lowp"), std::string::npos) << lines.at(3);
+}
+
+TEST_F(ServeTest, RefusesAFactorJustOutsideItsRange) {
+  Case outside = load_suite("core").cases.front();
+  outside.name = "outside";
+  outside.description["material"]["pbrMetallicRoughness"]["metallicFactor"] = 1 + 0x1p-23;
+  json wrong = request("wrong");
+  wrong["scene"] = write_scene(outside, folder_.path()).string();
+  const std::vector<std::string> lines = lines_for(wrong.dump() + "\n");
+  EXPECT_EQ(json::parse(lines.at(1))["status"], "failed");
+  EXPECT_NE(lines.at(1).find("metallicFactor"), std::string::npos) << lines.at(1);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "wrong.exr"));
+}
+
 TEST_F(ServeTest, EvaluatesAFunctionAtTheArgumentsOfAFile) {
   image::Image arguments(3, 2, {"R", "G", "B", "A"});
   arguments.at(2, 1, 0) = 3;

@@ -78,6 +78,9 @@ TEST(Suite, RefusalsNameFileElementAndRule) {
   EXPECT_NE(refusal(R"({"name": "a", "base": {"lights": [{"type": "point", "toward": [0, 0, 1]}]}})").find("lights[0]"), std::string::npos);
   EXPECT_NE(refusal(R"({"name": "a", "base": {"model": {"visibility": "charly"}}})").find("unknown visibility 'charly'"),
             std::string::npos);
+  EXPECT_NE(refusal(R"({"name": "a", "base": {"precision": "lowp"}})").find("case 'a'.precision: must be \"highp\" or \"mediump\""),
+            std::string::npos);
+  EXPECT_NE(refusal(R"({"name": "a", "base": {"refused": 1}})").find("case 'a'.refused: must be true or false"), std::string::npos);
   EXPECT_NE(refusal(R"({"name": "a", "base": {"size": [0, 4]}})").find("whole numbers from 1"), std::string::npos);
   EXPECT_NE(refusal(R"({"name": "{a}.{b}", "axes": {"a": [{"label": "x", "patch": {}}]}})").find("a hole that no axis fills"),
             std::string::npos);
@@ -86,6 +89,20 @@ TEST(Suite, RefusalsNameFileElementAndRule) {
   EXPECT_NE(refusal(R"({"name": "A b"})").find("may hold only"), std::string::npos);
   EXPECT_NE(refusal(R"({"name": "a"}, {"name": "a"})").find("two cases are named 'a'"), std::string::npos);
   EXPECT_THROW(parse_suite("{", "small.json"), SuiteError);
+}
+
+TEST(Suite, ACaseSaysItsPrecisionAndWhetherItIsRefusedOrNothing) {
+  const Suite suite = parse_suite(suite_text(R"({"name": "{a}", "axes": {"a": [{"label": "silent", "patch": {}},
+    {"label": "high", "patch": {"precision": "highp"}}, {"label": "medium", "patch": {"precision": "mediump"}},
+    {"label": "wrong", "patch": {"refused": true}}, {"label": "right", "patch": {"refused": false}}]}})"),
+                                  "small.json");
+  ASSERT_EQ(suite.cases.size(), 5U);
+  EXPECT_EQ(suite.cases[0].precision, std::nullopt) << "the run decides";
+  EXPECT_EQ(suite.cases[1].precision, golden::Precision::Highp);
+  EXPECT_EQ(suite.cases[2].precision, golden::Precision::Mediump);
+  for (const Case& one : suite.cases) {
+    EXPECT_EQ(one.refused, one.name == "wrong") << one.name;
+  }
 }
 
 TEST(Suite, FurtherFilesAddGroupsUnderTheSameDefaults) {
@@ -139,6 +156,46 @@ TEST(CoreSuite, SweepsWhatItPromises) {
        {"sheenColorTexture", "sheenRoughnessTexture", "clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture",
         "normalTexture", "baseColorTexture", "metallicRoughnessTexture", "emissiveTexture"}) {
     EXPECT_NE(all.find(texture), std::string::npos) << texture;
+  }
+}
+
+/// The names of a suite's cases.
+std::set<std::string> names_of(const Suite& suite) {
+  std::set<std::string> names;
+  for (const Case& one : suite.cases) {
+    names.insert(one.name);
+  }
+  return names;
+}
+
+TEST(ExtremesSuite, TakesEveryFactorToEveryEndInEitherPrecision) {
+  const std::set<std::string> names = names_of(load_suite("extremes"));
+  for (const std::string factor : {"sheen_color", "sheen_roughness", "roughness", "metallic", "base_color", "clearcoat",
+                                   "clearcoat_roughness", "specular", "specular_color", "emission", "together.all"}) {
+    const std::string separator = factor == "together.all" ? "_" : ".";
+    for (const std::string value : {"0", "least_normal", "1e_7", "1e_4", "1e_3", "1e_2", "1_less_an_ulp", "1"}) {
+      for (const std::string precision : {"highp", "mediump"}) {
+        EXPECT_TRUE(names.contains(factor + separator + value + "." + precision)) << factor << " " << value << " " << precision;
+      }
+    }
+    if (factor != "together.all") {
+      EXPECT_TRUE(names.contains(factor + ".below_0")) << factor;
+      EXPECT_EQ(names.contains(factor + ".above_1"), factor != "specular_color") << factor << " (specularColorFactor has no upper end)";
+    }
+  }
+}
+
+TEST(ExtremesSuite, EveryCaseThatIsDrawnIsDrawnInBothPrecisionsAndSaysWhich) {
+  const Suite suite = load_suite("extremes");
+  const std::set<std::string> names = names_of(suite);
+  for (const Case& one : suite.cases) {
+    ASSERT_NE(one.precision.has_value(), one.refused) << one.name;
+    if (one.precision) {
+      const std::string word = "." + to_string(*one.precision);
+      ASSERT_TRUE(one.name.ends_with(word)) << one.name;
+      const char* other = *one.precision == golden::Precision::Highp ? ".mediump" : ".highp";
+      ASSERT_TRUE(names.contains(one.name.substr(0, one.name.size() - word.size()) + other)) << one.name;
+    }
   }
 }
 

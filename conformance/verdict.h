@@ -30,7 +30,7 @@ struct Verdict {
   /// mipmaps seen from too far, [4] an operation for which the rules of GLSL ES promise nothing.
   std::array<std::int64_t, 5> excluded_by{};
   /// Compared, but black and twice the golden would both pass, and it shows: its bound is above the brightest channel of the pixel and
-  /// above a tenth of what the picture's pixels have on average.
+  /// above a tenth of what the picture's pixels have on average and above the least normal number.
   std::int64_t vague_pixels = 0;
   std::int64_t mirrored_pixels = 0;   ///< covered, and left out since the normal faces away (foreign viewers alone)
   std::int64_t negative_pixels = 0;   ///< compared or not, with a channel below 0 where the golden has none

@@ -5,51 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "conformance/verdict_fixture_test.h"
+
 namespace sheen::conformance {
 namespace {
-
-constexpr int width = 20;
-constexpr int height = 10;
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinite_value = std::numeric_limits<float>::infinity();
-
-/// A golden that covers the left half with a smooth colour and a bound of one part in a thousand; 100 covered pixels.
-image::Image make_golden() {
-  image::Image golden(width, height, {"R", "G", "B", "A", "bound.R", "bound.G", "bound.B", "excluded", "bound.A"});
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const bool covered = x < width / 2;
-      for (int c = 0; c < 3; ++c) {
-        const float value = covered ? 0.1F * static_cast<float>(c + 1) + 0.01F * static_cast<float>(x) : 0.0F;
-        golden.at(x, y, c) = value;
-        golden.at(x, y, 4 + c) = 1e-3F * value + 2e-5F;
-      }
-      golden.at(x, y, 3) = covered ? 1.0F : 0.0F;
-    }
-  }
-  return golden;
-}
-
-image::Image rgba_of(const image::Image& golden) {
-  image::Image candidate(golden.width, golden.height, {"R", "G", "B", "A"});
-  for (int y = 0; y < golden.height; ++y) {
-    for (int x = 0; x < golden.width; ++x) {
-      for (int c = 0; c < 4; ++c) {
-        candidate.at(x, y, c) = golden.at(x, y, c);
-      }
-    }
-  }
-  return candidate;
-}
-
-class VerdictTest : public testing::Test {
- protected:
-  image::Image golden_ = make_golden();
-  image::Image candidate_ = rgba_of(golden_);
-  VerdictRules rules_;
-
-  Verdict verdict() const { return judge(candidate_, golden_, rules_); }
-};
 
 TEST_F(VerdictTest, TheGoldenItselfPasses) {
   const Verdict v = verdict();
@@ -136,6 +95,35 @@ TEST_F(VerdictTest, NanOrInfFailsWhereverItStands) {
   EXPECT_EQ(verdict().status, Status::Fail) << "an excluded pixel must be finite too";
 }
 
+TEST_F(VerdictTest, ANegativePixelFailsWhereTheGoldenIsNot) {
+  golden_.at(2, 3, 0) = 0.0F;
+  golden_.at(2, 3, 4) = 0.5F;
+  candidate_.at(2, 3, 0) = -1e-6F;
+  const Verdict v = verdict();
+  EXPECT_LT(v.bound_ratio, 1) << "the bound alone would let it pass";
+  EXPECT_EQ(v.status, Status::Fail);
+  EXPECT_EQ(v.negative_pixels, 1);
+  EXPECT_NE(v.message.find("1 pixels are negative"), std::string::npos) << v.message;
+}
+
+TEST_F(VerdictTest, ANegativePixelFailsWhereverItStands) {
+  golden_.at(2, 2, 7) = 1.0F;
+  for (const auto& [x, y] : {std::pair{18, 8}, std::pair{2, 2}}) {
+    for (int c = 0; c < 3; ++c) {
+      image::Image off = candidate_;
+      off.at(x, y, c) = -1e-30F;
+      EXPECT_EQ(judge(off, golden_, rules_).status, Status::Fail) << "pixel " << x << ", " << y << " channel " << c;
+    }
+  }
+}
+
+TEST_F(VerdictTest, WhatIsNegativeInTheGoldenMayBeSo) {
+  golden_.at(2, 3, 1) = candidate_.at(2, 3, 1) = -0.25F;
+  candidate_.at(18, 8, 0) = -0.0F;
+  EXPECT_EQ(verdict().status, Status::Pass) << verdict().message;
+  EXPECT_EQ(verdict().negative_pixels, 0);
+}
+
 TEST_F(VerdictTest, AnInfiniteOrNanBoundForgivesNothing) {
   for (const float bound : {infinite_value, nan_value}) {
     image::Image loose = golden_;
@@ -205,6 +193,20 @@ TEST_F(VerdictTest, ADarkPixelIsNotVague) {
   EXPECT_EQ(verdict().status, Status::Pass);
 }
 
+TEST_F(VerdictTest, ABlackPictureIsNotVagueForWhatMayBeFlushed) {
+  for (const float bound : {0x1p-140F, 0x1p-100F}) {
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width / 2; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          golden_.at(x, y, c) = candidate_.at(x, y, c) = 0.0F;
+          golden_.at(x, y, 4 + c) = bound;
+        }
+      }
+    }
+    EXPECT_EQ(verdict().vague_pixels, bound < 0x1p-126F ? 0 : 100);
+  }
+}
+
 TEST_F(VerdictTest, ExcludedPixelsThatNobodyCoversDoNotCount) {
   for (int y = 0; y < height; ++y) {
     golden_.at(19, y, 7) = 1.0F;
@@ -251,72 +253,45 @@ TEST_F(VerdictTest, ACandidateWithoutAlphaCoversWhatTheSceneCovers) {
   EXPECT_EQ(v.compared_pixels, 100);
 }
 
-TEST_F(VerdictTest, Pxr24WidensTheBoundByItsRoundingAlone) {
-  const float value = golden_.at(6, 6, 0);
-  golden_.at(6, 6, 4) = 0.0F;
-  candidate_.at(6, 6, 0) = value * (1 + 0x1p-17F);
-  EXPECT_EQ(verdict().status, Status::Fail);
-  rules_.golden_is_pxr24 = true;
-  EXPECT_EQ(verdict().status, Status::Pass) << verdict().message;
-  candidate_.at(6, 6, 0) = value * (1 + 0x1p-15F);
-  EXPECT_EQ(verdict().status, Status::Fail);
-}
-
-/// The linear value of the sRGB code nearest to a linear value, found by trying all.
-float through_codes(float linear) {
-  double best = 0;
-  double distance = 1e9;
-  const double wanted = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(static_cast<double>(linear), 1 / 2.4) - 0.055;
-  for (int code = 0; code < 256; ++code) {
-    const double s = code / 255.0;
-    if (std::abs(s - wanted) < distance) {
-      distance = std::abs(s - wanted);
-      best = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-    }
-  }
-  return static_cast<float>(best);
-}
-
-TEST_F(VerdictTest, EightBitCodesAreForgivenHalfACodeAndTheClip) {
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width / 2; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        golden_.at(x, y, c) *= 3.5F;  // up to 1.36
-        golden_.at(x, y, 4 + c) = 0.0F;
-        candidate_.at(x, y, c) = through_codes(golden_.at(x, y, c));
-      }
-    }
-  }
-  EXPECT_EQ(verdict().status, Status::Fail);
-  rules_.candidate_is_srgb8 = true;
-  EXPECT_EQ(verdict().status, Status::Pass) << verdict().message;
-  candidate_.at(5, 5, 1) = through_codes(golden_.at(5, 5, 1) * 0.97F);
-  EXPECT_EQ(verdict().status, Status::Fail) << "a code off by one or more is seen";
-}
-
-TEST_F(VerdictTest, MirroredPixelsAreLeftOutOnlyIfTheRulesSaySo) {
-  golden_.channels.push_back("mirrored");
-  std::vector<float> data;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(width) * height; ++i) {
-    data.insert(data.end(), golden_.data.begin() + static_cast<std::ptrdiff_t>(9 * i),
-                golden_.data.begin() + static_cast<std::ptrdiff_t>(9 * i + 9));
-    data.push_back(i == 5 ? 1.0F : 0.0F);
-  }
-  golden_.data = data;
-  candidate_.at(5, 0, 0) = 3.0F;
-  EXPECT_EQ(verdict().status, Status::Fail);
-  rules_.leave_out_mirrored = true;
-  EXPECT_EQ(verdict().status, Status::Pass);
-  EXPECT_EQ(verdict().mirrored_pixels, 1);
-  EXPECT_EQ(verdict().compared_pixels, 99);
-}
-
 TEST_F(VerdictTest, FiguresAreThoseOfCompare) {
   candidate_.at(0, 0, 0) += 0.05F;
   const Verdict v = verdict();
   EXPECT_NEAR(v.max_abs, 0.05, 1e-6);
   EXPECT_NEAR(v.max_rel, 0.05 / golden_.at(0, 0, 0), 1e-5);
   EXPECT_EQ(v.p99_rel, 0) << "one channel value of 400 is not among the first 99 %";
+}
+
+TEST_F(VerdictTest, TheMedianBoundIsThatOfTheColoursBoundsRelativeToTheGolden) {
+  const auto set = [&](int columns) {
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          golden_.at(x, y, 4 + c) = (x < columns ? 1e-2F : 1e-4F) * golden_.at(x, y, c);
+        }
+        golden_.at(x, y, 8) = 7.0F;
+      }
+    }
+  };
+  set(4);
+  EXPECT_NEAR(verdict().median_bound, 1e-4, 1e-9);
+  set(6);
+  EXPECT_NEAR(verdict().median_bound, 1e-2, 1e-7);
+  for (int y = 0; y < height; ++y) {
+    golden_.at(0, y, 7) = golden_.at(1, y, 7) = golden_.at(2, y, 7) = 1.0F;
+  }
+  EXPECT_NEAR(verdict().median_bound, 1e-4, 1e-9) << "what is excluded does not count";
+}
+
+TEST_F(VerdictTest, TheMedianBoundOfTheDarkIsRelativeToAThousandth) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        golden_.at(x, y, c) = candidate_.at(x, y, c) = 0.0F;
+        golden_.at(x, y, 4 + c) = 2e-6F;
+      }
+    }
+  }
+  EXPECT_NEAR(verdict().median_bound, 2e-3, 1e-9);
 }
 
 TEST_F(VerdictTest, TheMapShowsWhatTheVerdictSaw) {

@@ -83,6 +83,22 @@ TEST_F(ViewerTest, AnswersAreRead) {
   EXPECT_EQ(starts(), 1) << "started once";
 }
 
+TEST_F(ViewerTest, APrecisionIsAskedForInTheSettingsIfOneIsWanted) {
+  json asked = plan("unsupported");
+  asked["requests"] = (folder_.path() / "requests").string();
+  Viewer viewer(command(asked), {});
+  Request wanted = request("wanted.glb");
+  wanted.precision = "mediump";
+  viewer.draw(wanted);
+  viewer.draw(request("indifferent.glb"));
+  std::ifstream requests(folder_.path() / "requests");
+  std::string line;
+  ASSERT_TRUE(std::getline(requests, line));
+  EXPECT_EQ(json::parse(line)["settings"].value("precision", "none"), "mediump") << line;
+  ASSERT_TRUE(std::getline(requests, line));
+  EXPECT_EQ(json::parse(line)["settings"].value("precision", "none"), "none") << line;
+}
+
 TEST_F(ViewerTest, ACrashCostsOneCase) {
   const Answer answer = misbehave("crash");
   EXPECT_EQ(answer.status, AnswerStatus::Crash);

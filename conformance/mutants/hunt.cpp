@@ -27,7 +27,7 @@ Run run_cases(const Hunt& hunt, const std::string& mutant, const CaseFilter& cas
   const std::string cache = (hunt.folder / "cache").string();
   ChildProcess driver({"/usr/bin/env", "-u", "GTEST_FILTER", "-u", "GTEST_TOTAL_SHARDS", "XDG_CACHE_HOME=" + cache,
                        std::string("GTEST_FAIL_FAST=") + (stop_at_first ? "1" : "0"), hunt.driver, report, cache, cases.filter,
-                       json(case_limit).dump(), "lenient", "'" + hunt.viewer + "' " + mutant, cases.suite});
+                       json(case_limit).dump(), "lenient", "'" + hunt.viewer + "' " + mutant, cases.suite, "highp"});
   Run run;
   std::string line;
   const Deadline deadline = deadline_in(run_limit);

@@ -314,5 +314,16 @@ TEST(Bound, HoldsTheFreedomInTheLevelOfDetail) {
   EXPECT_GT(mipmapped, 2.0 * largest_bound()) << "two texels a pixel leave half a level of freedom";
 }
 
+TEST(Bound, OfAFaintLightHoldsWhatMayBeFlushed) {
+  for (const double lux : {0x1p-110, 0x1p-125, 0x1p-140}) {
+    const scene::Scene s = test::scene_with(test::sphere(40, 20), test::lambertian({0.5, 0.5, 0.5, 1.0}), test::orthographic_at(5.0, ymag),
+                                            {test::directional({0.0, 0.0, 1.0}, glm::dvec3(1.0), lux)});
+    const image::Image golden = render(s, test::settings_for(size, size, true));
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GE(golden.at(size / 2, size / 2, 4 + c), 0x1p-126F) << "of " << lux << " lux";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheen::golden

@@ -22,11 +22,13 @@ glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
   return {c.r, c.g, c.b};
 }
 
-// A bound of the float that is stored: by its rounding wider, itself rounded up, and finite.
+// A bound of the float that is stored: by its rounding wider, itself rounded up, and finite. At least the least normal number, below which
+// a driver may flush what it draws (GLSL ES 3.00.6, section 4.5.1), and our own processor the value and the bound that are stored.
 float stored_bound(double bound, double value) {
   constexpr float largest = std::numeric_limits<float>::max();
+  constexpr float least = std::numeric_limits<float>::min();
   const double wide = bound + std::abs(value) * 0x1p-24;
-  return wide < static_cast<double>(largest) ? std::nextafter(static_cast<float>(wide), largest) : largest;
+  return wide < static_cast<double>(largest) ? std::max(std::nextafter(static_cast<float>(wide), largest), least) : largest;
 }
 
 void store(const Pixel& pixel, bool bounds, int x, int y, image::Image& out) {

@@ -1,6 +1,7 @@
 // A viewer that misbehaves on command: what the conformance tests hold the protocol's client to.
 // Usage: sheen-cts-fake-viewer PLAN.json with
 //   {"log": FILE,              appends a line each time it starts
+//    "requests": FILE,         appends each request, a line each
 //    "hello": {...},           the first line; or a string, printed as it is; or null for silence
 //    "answers": {SUBSTRING: HOW}}   by a piece of the request's scene, or of the file of a function's arguments; "*" for all others
 // HOW: {"image": FILE}, copied to the request's output; or one of "crash", "exit", "hang", "garbage", "close", "wrong_id", "unsupported",
@@ -102,6 +103,9 @@ int main(int argc, char** argv) {
   std::string line;
   while (std::getline(std::cin, line)) {
     const json request = json::parse(line);
+    if (plan.contains("requests")) {
+      std::ofstream(plan["requests"].get<std::string>(), std::ios::app) << line << "\n";
+    }
     const std::string asked = request.at(request.contains("function") ? "arguments" : "scene").get<std::string>();
     answer(request, choose(plan.value("answers", json::object()), asked));
   }

@@ -1,6 +1,6 @@
 // Runs a suite in a process of its own, as `sheen-cts run` does: GoogleTest runs but once in a process, so the tests start this program.
-// Arguments: report folder, cache folder, filter, time limit of a case in seconds, "strict" or "lenient", viewer command, suite. Prints the
-// results.
+// Arguments: report folder, cache folder, filter, time limit of a case in seconds, "strict" or "lenient", viewer command, suite, precision.
+// Prints the results.
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -8,7 +8,7 @@
 #include "conformance/run.h"
 
 int main(int argc, char** argv) {
-  if (argc != 8) {
+  if (argc != 9) {
     return 2;
   }
   try {
@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
     options.strict = std::string(argv[5]) == "strict";
     options.viewer = argv[6];
     options.suite = argv[7];
+    options.precision = argv[8];
     const sheen::conformance::RunResult result = sheen::conformance::run(options);
     std::fputs(result.results_json.c_str(), stdout);
     return result.ok ? 0 : 1;
