@@ -89,10 +89,8 @@ Bounded<P> sheen_distribution(const Vec3<Bounded<P>>& n, const Vec3<Bounded<P>>&
   const H alpha_g = roughness * roughness;
   const H n_dot_h = as<Highp>(dot_in_any_order(n, h));
   const H sin2 = squared_length(as<Highp>(cross(n, h)));
-  const H d = brdf::charlie_distribution<Guarded<Highp>>(alpha_g, n_dot_h, sin2);
-  // The exponent is held at -87.
-  const H least = (H(1) + H(0.5) / alpha_g) * exp(H(-87)) * H(1 / brdf::pi);
-  return as<P>(max(d, least));
+  // Below an exponent of -87.5 the shader takes 0, as whoever flushes subnormal numbers does.
+  return as<P>(brdf::charlie_distribution<Guarded<Highp>>(alpha_g, n_dot_h, sin2));
 }
 
 template <class P>

@@ -115,21 +115,13 @@ void keep_golden(const fs::path& images, const std::string& name, const image::I
 
 void judge_picture(const Case& one, const PreparedCase& prepared, const image::Image& candidate, const Hello& hello,
                    const GoldenStore& store, CaseResult& result) {
-  VerdictRules rules;
+  VerdictRules rules = own_rules(prepared.settings.precision, !one.environment.empty());
   rules.golden_is_pxr24 = prepared.reference.pxr24;
   rules.candidate_is_srgb8 = hello.encoding == Encoding::Srgb8;
-  if (prepared.settings.precision == golden::Precision::Mediump) {
-    // Ten bits leave much open, and nothing near some singularities.
-    rules.leave_out_unpromised = true;
-    rules.most_vague = 1;
-  }
   if (hello.name != "sheen-cts") {
     rules.leave_out_mirrored = true;
     rules.relative_tolerance = foreign_relative_tolerance;
     rules.absolute_tolerance = foreign_absolute_tolerance;
-  }
-  if (!one.environment.empty()) {
-    rules.environment_tolerance = environment_tolerance;
   }
   const image::Image& golden = prepared.reference.image;
   result.verdict = judge(candidate, golden, rules);
@@ -179,6 +171,17 @@ void judge_refusal(const Answer& answer, const Hello& hello, CaseResult& result)
 }
 
 }  // namespace
+
+VerdictRules own_rules(golden::Precision precision, bool environment) {
+  VerdictRules rules;
+  if (precision == golden::Precision::Mediump) {
+    // Ten bits leave much open, and near some singularities everything.
+    rules.leave_out_unpromised = true;
+    rules.most_vague = 1;
+  }
+  rules.environment_tolerance = environment ? environment_tolerance : 0;
+  return rules;
+}
 
 Status status_of(AnswerStatus status) {
   switch (status) {

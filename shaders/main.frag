@@ -101,7 +101,8 @@ void main() {
 #endif
 
 #ifdef ALPHA_BLEND
-    out_color = vec4(radiance * base_color.a, base_color.a);
+    float alpha = clamp(base_color.a, 0.0, 1.0);
+    out_color = vec4(radiance * alpha, alpha);
 #else
     out_color = vec4(radiance, 1.0);
 #endif

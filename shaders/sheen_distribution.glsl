@@ -17,8 +17,7 @@ highp float log_one_minus(highp float x) {
     return -2.0 * t * (1.0 + t2 * (1.0 / 3.0 + t2 * (1.0 / 5.0 + t2 * (1.0 / 7.0 + t2 * (1.0 / 9.0)))));
 }
 
-// The exponent is highp whatever the shading's precision: 1 / alpha_g leaves a half float's range for sheenRoughness <= 0.0039. Below the
-// smallest argument that exp() promises anything for, the lobe is nothing.
+// The exponent is highp whatever the shading's precision: 1 / alpha_g leaves a half float's range for sheenRoughness <= 0.0039.
 float sheen_distribution(vec3 N, vec3 H, float sheenRoughness) {
     highp float roughness = sheenRoughness;
     highp float inv_r = 1.0 / (roughness * roughness);
@@ -31,7 +30,9 @@ float sheen_distribution(vec3 N, vec3 H, float sheenRoughness) {
         highp vec3 NxH = cross(N, H);
         log_sin2h = log(max(dot(NxH, NxH), 1e-30));
     }
-    highp float value = (1.0 + 0.5 * inv_r) * exp(max(0.5 * inv_r * log_sin2h, -87.0)) * INV_PI;
+    highp float exponent = 0.5 * inv_r * log_sin2h;
+    // e^-87.5 is below the smallest normal number.
+    highp float value = exponent < -87.5 ? 0.0 : (1.0 + 0.5 * inv_r) * exp(exponent) * INV_PI;
     return min(value, LARGEST_SHADING_VALUE);
 }
 #endif

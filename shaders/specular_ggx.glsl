@@ -1,5 +1,5 @@
 // The specular lobe of glTF 2.0, Appendix B.3.2: Trowbridge and Reitz 1975 (GGX) with the height-correlated Smith term of Heitz 2014.
-// alpha = 0 is a mirror, to which a punctual light gives no highlight.
+// Up to MIRROR_ALPHA a surface is a mirror, to which a punctual light gives no highlight.
 
 const highp float MIRROR_ALPHA = 1e-9;
 

@@ -19,17 +19,17 @@
 
 namespace sheen::tools {
 
-image::Image golden_image(const scene::Scene& scene, const SceneOptions& options, int subpixel_bits,
-                          const std::optional<scene::Environment>& environment, const golden::SamplingGoal& sampling, bool bounds) {
+image::Image golden_image(const scene::Scene& scene, const SceneOptions& options, const GoldenRequest& request) {
   const std::int64_t pixels = std::int64_t{options.view.width} * options.view.height;
   Progress progress("golden", "pixels", pixels);
   golden::Settings settings;
   settings.view = options.view;
   settings.sheen = options.sheen;
-  settings.subpixel_bits = subpixel_bits;
-  settings.environment = environment ? &*environment : nullptr;
-  settings.sampling = sampling;
-  settings.bounds = bounds;
+  settings.subpixel_bits = request.subpixel_bits;
+  settings.precision = request.precision;
+  settings.environment = request.environment;
+  settings.sampling = request.sampling;
+  settings.bounds = request.bounds;
   settings.progress = [&progress, pixels](double share) {
     progress.update(static_cast<std::int64_t>(share * static_cast<double>(pixels)));
   };
@@ -40,23 +40,24 @@ int golden(const GoldenOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   require_writable(options.output, {".exr", ".hdr", ".pfm", ".png"});
   const auto [scene, environment] = load_input(options);
-  golden::SamplingGoal sampling;
-  sampling.seed = static_cast<std::uint64_t>(options.seed);
+  GoldenRequest request;
+  request.environment = environment ? &*environment : nullptr;
+  request.sampling.seed = static_cast<std::uint64_t>(options.seed);
   if (options.samples) {
-    sampling.samples = static_cast<std::uint32_t>(*options.samples);
-    sampling.error = 0.0;
+    request.sampling.samples = static_cast<std::uint32_t>(*options.samples);
+    request.sampling.error = 0.0;
   }
-  sampling.error = options.error.value_or(sampling.error);
+  request.sampling.error = options.error.value_or(request.sampling.error);
   // Other files than .exr have no room for bounds.
-  const bool bounds = extension_of(options.output) == ".exr";
-  const image::Image picture = golden_image(scene, options, golden::Settings().subpixel_bits, environment, sampling, bounds);
+  request.bounds = extension_of(options.output) == ".exr";
+  const image::Image picture = golden_image(scene, options, request);
   image::write(options.output, picture);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.json) {
     std::cout << conformance::json_text(nlohmann::ordered_json{{"output", options.output.string()},
                                                                {"width", picture.width},
                                                                {"height", picture.height},
-                                                               {"channels", bounds ? picture.channels
+                                                               {"channels", request.bounds ? picture.channels
                                                                             : extension_of(options.output) == ".png"
                                                                                 ? std::vector<std::string>{"R", "G", "B", "A"}
                                                                                 : std::vector<std::string>{"R", "G", "B"}},

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <optional>
-
-#include "golden/sampling_goal.h"
+#include "golden/golden.h"
 #include "image/image.h"
 #include "scene/environment.h"
 #include "scene/scene.h"
@@ -10,9 +8,16 @@
 
 namespace sheen::tools {
 
-/// The golden of the picture asked for, for a driver of that many SUBPIXEL_BITS; shows progress. Throws scene::Error.
-image::Image golden_image(const scene::Scene& scene, const SceneOptions& options, int subpixel_bits,
-                          const std::optional<scene::Environment>& environment = std::nullopt, const golden::SamplingGoal& sampling = {},
-                          bool bounds = true);
+/// What a golden depends on besides the picture asked for.
+struct GoldenRequest {
+  const scene::Environment* environment = nullptr;
+  golden::SamplingGoal sampling{};
+  int subpixel_bits = golden::Settings().subpixel_bits;    ///< of the driver it is to judge
+  golden::Precision precision = golden::Precision::Highp;  ///< of the shader it is to judge
+  bool bounds = true;
+};
+
+/// The golden of the picture asked for; shows progress. Throws scene::Error.
+image::Image golden_image(const scene::Scene& scene, const SceneOptions& options, const GoldenRequest& request);
 
 }  // namespace sheen::tools

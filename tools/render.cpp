@@ -71,12 +71,21 @@ int render(const RenderOptions& options) {
   const auto [scene, environment] = load_input(options);
   const std::unique_ptr<gles::Context> context = started.get();
   renderer::Renderer renderer(*context, conformance::default_cache() / "environments");
-  image::Image picture = renderer.render(scene, options.settings(environment));
+  renderer::Settings settings = options.settings(environment);
+  if (options.verify && environment && settings.environment_samples == 0) {
+    // Filtered beforehand its light is an approximation, which no bound holds.
+    settings.environment_samples = conformance::environment_directions;
+    fmt::print(stderr, "--verify draws {} directions of the environment a pixel\n", settings.environment_samples);
+  }
+  image::Image picture = renderer.render(scene, settings);
   std::optional<conformance::Verdict> verdict;
   if (options.verify) {
-    conformance::VerdictRules rules;
-    rules.environment_tolerance = environment ? conformance::environment_tolerance : 0.0;
-    verdict = conformance::judge(picture, golden_image(scene, options, context->info().subpixel_bits, environment), rules);
+    GoldenRequest request;
+    request.environment = environment ? &*environment : nullptr;
+    request.subpixel_bits = context->info().subpixel_bits;
+    request.precision = options.precision == renderer::Precision::Mediump ? golden::Precision::Mediump : golden::Precision::Highp;
+    verdict = conformance::judge(picture, golden_image(scene, options, request),
+                                 conformance::own_rules(request.precision, environment.has_value()));
   }
   apply_display(picture, options.tone_map, options.exposure);
   image::write(options.output, picture);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 #include "brdf/draft_sheen.h"
 #include "golden/texture_box.h"
 #include "golden/varying.h"
+#include "golden/vertex_rounding.h"
 #include "number/bounded_functions.h"
 
 namespace sheen::golden {
@@ -61,14 +63,14 @@ glm::dmat3 rotation_into_view(const scene::Camera& camera) {
 /// One hit, while its surface is read.
 class BoundedSurfaceReader::At {
  public:
-  At(const BoundedSurfaceReader& r, const Hit& hit, const Ray& ray)
+  At(const BoundedSurfaceReader& r, const Hit& hit, const Ray& ray, double step)
       : r_(r),
         hit_(hit),
         ray_(ray),
         placed_(r.geometry_.placed(hit.triangle)),
         material_(r.reader_.material(placed_.material_index)),
         local_(r.geometry_.local_vertices(hit.triangle)),
-        interpolate_(r.geometry_, r.rays_, hit, ray, r.step_) {}
+        interpolate_(r.geometry_, r.rays_, hit, ray, step) {}
 
   BoundedSurface read() const;
 
@@ -76,10 +78,11 @@ class BoundedSurfaceReader::At {
   using Slot = SurfaceReader::Slot;
 
   Texel texture(const Slot& slot) const;
+  Texel texture(const Slot& slot, const std::vector<double>& levels) const;
   Bound texture_coordinate(const Slot& slot, const std::array<Bound, 2>& uv, int row) const;
   Vector position() const;
   Vector face_normal(const Vector& position) const;
-  Vector transformed(const std::vector<glm::vec3>& directions, const glm::dmat3& view_from_local) const;
+  Vector transformed(const std::array<glm::dvec3, 3>& directions, const glm::dmat3& view_from_local) const;
   Vector normal(const Vector& position) const;
   Vector mapped_normal(const Slot& slot, double scale, const Vector& normal) const;
   void read_base(Surface<Bound>& s, Bound& alpha) const;
@@ -104,6 +107,15 @@ Bound BoundedSurfaceReader::At::texture_coordinate(const Slot& slot, const std::
 }
 
 Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
+  std::vector<double> levels;
+  if (slot.texture && slot.texture->needs_lod() && &slot != &material_.normal && &slot != &material_.clearcoat_normal) {
+    levels = r_.reader_.levels(slot, hit_, ray_);
+  }
+  return texture(slot, levels);
+}
+
+// At the ideal level, and at all that are given.
+Texel BoundedSurfaceReader::At::texture(const Slot& slot, const std::vector<double>& levels) const {
   if (!slot.texture) {
     return {};
   }
@@ -119,23 +131,29 @@ Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
     const Bound none = Bound::unbounded(0.0);
     return {none, none, none, none};
   }
-  const Spread s = sample_box(*slot.texture, {u.center(), v.center()}, {u.deviation(), v.deviation()}, r_.reader_.level(slot, hit_, ray_));
+  const glm::dvec2 at(u.center(), v.center());
+  const glm::dvec2 reach(u.deviation(), v.deviation());
+  Spread s = sample_box(*slot.texture, at, reach, r_.reader_.level(slot, hit_, ray_));
+  // Between the levels that are tried a texture runs straight.
+  for (const double level : levels) {
+    const Spread there = sample_box(*slot.texture, at, reach, level);
+    s.radius = glm::max(s.radius, glm::abs(there.value - s.value) + there.radius);
+  }
   return {channel(s, 0), channel(s, 1), channel(s, 2), channel(s, 3)};
 }
 
-// In view space. The vertex shader works with coordinates about the primitive's own middle, so that what it rounds is as large as the
-// vertex is far from the camera and from that middle.
+// In view space.
 Vector BoundedSurfaceReader::At::position() const {
+  const std::array<glm::dvec3, 3> magnitudes = position_magnitudes(r_.geometry_, r_.rays_, hit_.triangle);
   std::array<glm::dvec3, 3> p;
-  double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const glm::dvec3 from_eye =
-        r_.geometry_.positions()[r_.geometry_.vertices(hit_.triangle).at(i)] - glm::dvec3(r_.rays_.camera().world_from_camera[3]);
-    p.at(i) = r_.view_from_world_ * from_eye;
-    largest = std::max(largest, glm::length(from_eye));
+    const glm::dvec3& world = r_.geometry_.positions()[r_.geometry_.vertices(hit_.triangle).at(i)];
+    p.at(i) = r_.view_from_world_ * (world - glm::dvec3(r_.rays_.camera().world_from_camera[3]));
   }
-  const double rounding = transform_roundings * epsilon * (largest + 2.0 * placed_.radius);
-  const auto axis = [&](int k) { return bound(interpolate_({p[0][k], p[1][k], p[2][k]}, rounding)); };
+  const auto axis = [&](int k) {
+    const double largest = std::max({magnitudes[0][k], magnitudes[1][k], magnitudes[2][k]});
+    return bound(interpolate_({p[0][k], p[1][k], p[2][k]}, transform_roundings * epsilon * largest));
+  };
   return {axis(0), axis(1), axis(2)};
 }
 
@@ -157,14 +175,14 @@ Vector BoundedSurfaceReader::At::face_normal(const Vector& position) const {
   return {axis(n.x), axis(n.y), axis(n.z)};
 }
 
-Vector BoundedSurfaceReader::At::transformed(const std::vector<glm::vec3>& directions, const glm::dmat3& view_from_local) const {
+// A matrix of floats times the vectors at the vertices.
+Vector BoundedSurfaceReader::At::transformed(const std::array<glm::dvec3, 3>& directions, const glm::dmat3& view_from_local) const {
   const glm::dmat3 magnitudes(glm::abs(view_from_local[0]), glm::abs(view_from_local[1]), glm::abs(view_from_local[2]));
   std::array<glm::dvec3, 3> d;
   glm::dvec3 largest(0.0);
   for (std::size_t i = 0; i < 3; ++i) {
-    const glm::dvec3 local(directions[local_.at(i)]);
-    d.at(i) = view_from_local * local;
-    largest = glm::max(largest, magnitudes * glm::abs(local));
+    d.at(i) = view_from_local * directions.at(i);
+    largest = glm::max(largest, magnitudes * glm::abs(directions.at(i)));
   }
   const auto axis = [&](int k) { return bound(interpolate_({d[0][k], d[1][k], d[2][k]}, transform_roundings * epsilon * largest[k])); };
   return {axis(0), axis(1), axis(2)};
@@ -178,7 +196,8 @@ Vector BoundedSurfaceReader::At::normal(const Vector& position) const {
   glm::dmat3 m = r_.view_from_world_ * placed_.normal_matrix;
   const double scale = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
   m = scale > 0.0 ? m * (1.0 / scale) : m;
-  const Vector n = transformed(placed_.primitive->normals, m);
+  const auto& normals = placed_.primitive->normals;
+  const Vector n = transformed({glm::dvec3(normals[local_[0]]), glm::dvec3(normals[local_[1]]), glm::dvec3(normals[local_[2]])}, m);
   const Bound squared = dot(n, n);
   if (squared.is_bounded() && squared.range().lower > 1e-30) {
     return n * inversesqrt(squared);
@@ -192,20 +211,12 @@ Vector BoundedSurfaceReader::At::mapped_normal(const Slot& slot, double scale, c
     return normal;
   }
   const auto& tangents = placed_.primitive->tangents;
+  const std::array<glm::dvec3, 3> along{glm::dvec3(tangents[local_[0]]), glm::dvec3(tangents[local_[1]]), glm::dvec3(tangents[local_[2]])};
   const glm::dmat3 m = r_.view_from_world_ * placed_.linear;
-  std::array<glm::dvec3, 3> d;
-  double length = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    d.at(i) = m * glm::dvec3(tangents[local_.at(i)]);
-    length = std::max(length, glm::length(d.at(i)));
-  }
-  if (length == 0.0) {
+  if (m * along[0] == glm::dvec3(0.0) && m * along[1] == glm::dvec3(0.0) && m * along[2] == glm::dvec3(0.0)) {
     return normal;
   }
-  const auto axis = [&](int k) {
-    return bound(interpolate_({d[0][k] / length, d[1][k] / length, d[2][k] / length}, transform_roundings * epsilon * std::sqrt(3.0)));
-  };
-  const Vector tangent = unit_or({axis(0), axis(1), axis(2)}, normal);
+  const Vector tangent = unit_or(transformed(along, m), normal);
   const Bound w = bound(interpolate_({tangents[local_[0]].w, tangents[local_[1]].w, tangents[local_[2]].w}, 0.0));
   const Vector bitangent = cross(normal, tangent) * w;
   const Texel texel = texture(slot);
@@ -277,11 +288,11 @@ BoundedSurface BoundedSurfaceReader::At::read() const {
 }
 
 BoundedSurfaceReader::BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader,
-                                           brdf::Model model, double step)
-    : geometry_(geometry), rays_(rays), reader_(reader), model_(model), step_(step), view_from_world_(rotation_into_view(rays.camera())) {}
+                                           brdf::Model model)
+    : geometry_(geometry), rays_(rays), reader_(reader), model_(model), view_from_world_(rotation_into_view(rays.camera())) {}
 
-BoundedSurface BoundedSurfaceReader::read(const Hit& hit, const Ray& ray) const {
-  return At(*this, hit, ray).read();
+BoundedSurface BoundedSurfaceReader::read(const Hit& hit, const Ray& ray, double step) const {
+  return At(*this, hit, ray, step).read();
 }
 
 }  // namespace sheen::golden

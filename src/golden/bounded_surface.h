@@ -20,11 +20,12 @@ struct BoundedSurface {
 /// all coordinates that these and the displacement reach (texture_box.h), and every operation after.
 class BoundedSurfaceReader {
  public:
-  /// The references must outlive this. @param step  of the sample's displacement along either axis, pixels
-  BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader, brdf::Model model, double step);
+  /// The references must outlive this.
+  BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader, brdf::Model model);
 
   /// At a hit of a ray; see Interpolation. Where a normal may or may not have a direction, it is unbounded.
-  BoundedSurface read(const Hit& hit, const Ray& ray) const;
+  /// @param step  of the sample's displacement along either axis, pixels
+  BoundedSurface read(const Hit& hit, const Ray& ray, double step) const;
 
  private:
   class At;
@@ -32,7 +33,6 @@ class BoundedSurfaceReader {
   const RayGenerator& rays_;
   const SurfaceReader& reader_;
   brdf::Model model_;
-  double step_;
   glm::dmat3 view_from_world_;
 };
 

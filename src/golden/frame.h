@@ -15,11 +15,11 @@
 
 namespace sheen::golden {
 
-/// How far along either axis a driver may displace a sample, in pixels. Each vertex goes to the nearest place of a grid of SUBPIXEL_BITS
-/// (OpenGL ES 3.0.6, table 6.29), so by half its spacing; a point within the triangle goes by a mean of what its vertices do. OpenGL ES
-/// does not say "nearest"; Direct3D 11.3 does (section 3.4.4.1, 16.8 fixed point, round to nearest even), which the same hardware serves.
-/// And by the roundings of a vertex's place in the window, 8 of highp's epsilon relative to its size: of the transform 4, of the division
-/// by w 2.5, of the viewport's scale and offset.
+/// How far along either axis a driver may displace a sample, in pixels, at the least. Each vertex goes to the nearest place of a grid of
+/// SUBPIXEL_BITS (OpenGL ES 3.0.6, table 6.29), so by half its spacing; a point within the triangle goes by a mean of what its vertices do.
+/// OpenGL ES does not say "nearest"; Direct3D 11.3 does (section 3.4.4.1, 16.8 fixed point, round to nearest even), which the same hardware
+/// serves. And by the roundings of a vertex's place in the window, 8 of highp's epsilon relative to its size: of the transform 4, of the
+/// division by w 2.5, of the viewport's scale and offset. Where the transform cancels, by more: PixelBound::step().
 double displacement(const Settings& settings);
 
 /// A scene made ready to be asked for pixels: everything that all of them share.

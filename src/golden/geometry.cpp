@@ -67,10 +67,13 @@ Geometry::Geometry(const scene::Scene& scene) {
     glm::dvec3 high(-low);
     for (const glm::vec3& p : primitive.positions) {
       positions_.emplace_back(instance.world_from_local * glm::dvec4(glm::dvec3(p), 1.0));
-      low = glm::min(low, positions_.back());
-      high = glm::max(high, positions_.back());
+      low = glm::min(low, glm::dvec3(p));
+      high = glm::max(high, glm::dvec3(p));
     }
-    placed.radius = primitive.positions.empty() ? 0.0 : 0.5 * glm::length(high - low);
+    if (!primitive.positions.empty() && glm::length(0.5 * (low + high)) > 4.0 * glm::length(high - low)) {
+      placed.middle = 0.5 * (low + high);
+    }
+    placed.offset = glm::dvec3(instance.world_from_local * glm::dvec4(placed.middle, 1.0));
     for (std::size_t k = 0; k + 2 < primitive.indices.size(); k += 3) {
       triangles_.push_back({{placed.first_vertex + primitive.indices[k], placed.first_vertex + primitive.indices[k + 1],
                              placed.first_vertex + primitive.indices[k + 2]},

@@ -32,7 +32,10 @@ struct Placed {
   bool mirrored = false;
   glm::dmat3 linear{1.0};         ///< world from local, directions
   glm::dmat3 normal_matrix{1.0};  ///< a positive multiple of the inverse transpose; its cofactors, so that a flattened instance has one too
-  double radius = 0.0;            ///< half the diagonal of its box in world space, metres
+  /// What a vertex shader takes local coordinates about: the middle of the primitive's box where that lies more than four times as far from
+  /// the origin as the box is wide, so that their digits are kept; else the origin. And where that is in world space.
+  glm::dvec3 middle{0.0};
+  glm::dvec3 offset{0.0};
   std::uint32_t first_vertex = 0;
   std::uint32_t first_triangle = 0;
 };

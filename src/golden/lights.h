@@ -63,7 +63,7 @@ Arriving<Real> arriving(const PreparedLight& light, const Vec3<Real>& point) {
   const auto apart = distance2 > Real(0);
   const Real squared = select(apart, distance2, Real(1));
   const Vec3<Real> direction = to_light * inversesqrt(squared);
-  const Real ratio2 = distance2 * Real(light.inverse_range * light.inverse_range);
+  const Real ratio2 = distance2 * Real(light.inverse_range) * Real(light.inverse_range);
   const Real window = max(min(Real(1) - ratio2 * ratio2, Real(1)), Real(0));
   Real attenuation = select(apart, window / squared, Real(0));
   if (light.type == scene::LightType::Spot) {

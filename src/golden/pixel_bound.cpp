@@ -1,12 +1,15 @@
 #include "golden/pixel_bound.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "golden/bounded_albedo.h"
 #include "golden/bounded_mediump.h"
 #include "golden/shade.h"
+#include "golden/vertex_rounding.h"
 #include "number/bounded_functions.h"
 
 namespace sheen::golden {
@@ -25,17 +28,29 @@ std::vector<PreparedLight> seen_from(const scene::Camera& camera, std::vector<Pr
 
 PixelBound::PixelBound(const Frame& frame)
     : frame_(frame),
-      reader_(frame.geometry, frame.rays, frame.reader, frame.model.model, displacement(frame.settings)),
+      reader_(frame.geometry, frame.rays, frame.reader, frame.model.model),
       lights_(seen_from(frame.rays.camera(), frame.lights)) {}
 
+double PixelBound::step(const Seen& seen) const {
+  const double grid = std::ldexp(0.5, -frame_.settings.subpixel_bits);
+  double most = displacement(frame_.settings);
+  const auto include = [&](const Hit& hit) { most = std::max(most, grid + window_rounding(frame_.geometry, frame_.rays, hit)); };
+  if (seen.nearest) {
+    include(*seen.nearest);
+  }
+  std::for_each(seen.blended.begin(), seen.blended.end(), include);
+  // What is displaced by whole pixels is nothing to compare.
+  return std::min(most, 1.0);
+}
+
 // a c + (1 - a) dst over black, in the order of drawing; a surface that does not blend replaces what is there.
-Enclosed PixelBound::of(const Seen& seen, const Ray& ray) const {
+Enclosed PixelBound::of(const Seen& seen, const Ray& ray, double step) const {
   Lighting lighting = frame_.lighting();
   lighting.lights = lights_.data();
   std::array<Bound, 4> out{Bound(0.0), Bound(0.0), Bound(0.0), Bound(0.0)};
   const auto lay = [&](const Hit& hit) {
     const Placed& placed = frame_.geometry.placed(hit.triangle);
-    const BoundedSurface read = reader_.read(hit, ray);
+    const BoundedSurface read = reader_.read(hit, ray, step);
     const Layers layers = frame_.reader.layers(placed.material_index);
     const brdf::Rgb<Bound> c = (frame_.settings.precision == Precision::Mediump
                                     ? shade_with<number::Bounded<number::Mediump>>(read.surface, layers, lighting, NoListener{})

@@ -22,7 +22,11 @@ class PixelBound {
   /// The frame must outlive this.
   explicit PixelBound(const Frame& frame);
 
-  Enclosed of(const Seen& seen, const Ray& ray) const;
+  /// How far a driver may displace a sample that meets these surfaces, along either axis, in pixels.
+  double step(const Seen& seen) const;
+
+  /// @param step  at least step(seen)
+  Enclosed of(const Seen& seen, const Ray& ray, double step) const;
 
  private:
   const Frame& frame_;

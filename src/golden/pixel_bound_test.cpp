@@ -122,7 +122,6 @@ std::vector<double> shares(const scene::Scene& s, Settings settings, int tries) 
   }
   Lighting lighting = frame.lighting();
   lighting.lights = lights.data();
-  const double step = displacement(settings);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> within(-1.0, 1.0);
   number::test::Decisions::current().seed(5);
@@ -135,7 +134,8 @@ std::vector<double> shares(const scene::Scene& s, Settings settings, int tries) 
       if (!seen.nearest) {
         continue;
       }
-      const Enclosed enclosed = bound.of(seen, ray);
+      const double step = bound.step(seen);
+      const Enclosed enclosed = bound.of(seen, ray, step);
       if (!std::isfinite(enclosed.deviation.x)) {
         continue;
       }

@@ -48,15 +48,6 @@ struct SurfaceReader::Footprint {
   const Ray* ray = nullptr;
 };
 
-std::vector<double> levels_within(const LodInterval& range) {
-  std::vector<double> levels{range.low};
-  for (double quarter = std::floor(4.0 * range.low) + 1.0; quarter < 4.0 * range.high; quarter += 1.0) {
-    levels.push_back(quarter / 4.0);
-  }
-  levels.push_back(range.high);
-  return levels;
-}
-
 SurfaceReader::SurfaceReader(const scene::Scene& scene, const Geometry& geometry, const RayGenerator& rays, bool environment,
                              brdf::Model model, double step)
     : geometry_(geometry), rays_(rays), model_(model), step_(step), materials_(scene.materials.size()) {
@@ -207,75 +198,6 @@ const SurfaceReader::Slot& SurfaceReader::slot_of(const Material& m, std::size_t
   return *slots[slot];
 }
 
-// The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes.
-std::optional<LodInterval> SurfaceReader::lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const {
-  const Slot& s = slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], slot);
-  if (!s.texture || !s.texture->needs_lod()) {
-    return std::nullopt;
-  }
-  const glm::dvec2 size = s.texture->size();
-  const double last = std::log2(std::max(size.x, size.y)) + 1.0;
-  glm::dvec2 texels[9];
-  bool beyond = false;
-  for (int i = 0; i < 9; ++i) {
-    texels[i] = texcoord(s, hit, weights_beside(hit, ray, i % 3 - 1, i / 3 - 1, beyond)) * size;
-  }
-  if (beyond) {
-    return LodInterval{-1.0, last};
-  }
-  const LodRange range = lod_range(texels);
-  const double low = std::clamp(range.lowest, -1.0, last);
-  return LodInterval{low, std::clamp(range.highest, low, last)};
-}
-
-std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const {
-  const std::optional<LodInterval> range = lod_interval(hit, ray, slot);
-  if (!range) {
-    return {};
-  }
-  std::vector<double> levels = levels_within(*range);
-  const Material& m = materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)];
-  const Slot& s = slot_of(m, slot);
-  if (&s != &m.normal && &s != &m.clearcoat_normal) {
-    return levels;
-  }
-  const double scale = &s == &m.normal ? m.source->normal_scale : m.source->clearcoat.normal_scale;
-  const glm::dvec3 normal = interpolated_normal(hit);
-  const auto normal_at = [&](double level) { return mapped_normal(s, scale, normal, hit, footprint(hit, ray, {level, slot})); };
-  const glm::dvec3 view = rays_.toward_camera(ray);
-  std::vector<double> finer{levels.front()};
-  glm::dvec3 before = normal_at(levels.front());
-  const auto add = [&](double level, const glm::dvec3& after) {
-    // Sheen's visibility has a cusp where the normal stands across the view.
-    double low = finer.back();
-    double high = level;
-    const double side = glm::dot(before, view);
-    if (side * glm::dot(after, view) < 0.0) {
-      for (int halvings = 0; halvings < 16; ++halvings) {
-        const double middle = 0.5 * (low + high);
-        (side * glm::dot(normal_at(middle), view) > 0.0 ? low : high) = middle;
-      }
-      finer.push_back(low);
-      finer.push_back(high);
-    }
-    finer.push_back(level);
-    before = after;
-  };
-  constexpr double largest_angle = 0.01;
-  constexpr double most = 64.0;  // between two quarters: half a turn would need 5 times as many
-  for (std::size_t i = 1; i < levels.size(); ++i) {
-    const glm::dvec3 after = normal_at(levels[i]);
-    const double angle = std::atan2(glm::length(glm::cross(before, after)), glm::dot(before, after));
-    const double steps = std::clamp(std::ceil(angle / largest_angle), 1.0, most);
-    for (double step = 1.0; step < steps; step += 1.0) {
-      const double level = levels[i - 1] + (levels[i] - levels[i - 1]) * step / steps;
-      add(level, normal_at(level));
-    }
-    add(levels[i], after);
-  }
-  return finer;
-}
-
 double SurfaceReader::level(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
   constexpr double coarsest = 1000.0;  // OpenGL ES 3.0.6, table 6.10: TEXTURE_MAX_LOD
   if (footprint.count == 0 || !slot.texture->needs_lod()) {
@@ -316,7 +238,7 @@ glm::dvec3 SurfaceReader::interpolated_normal(const Hit& hit) const {
   return unit_or(placed.normal_matrix * local, face);
 }
 
-// glTF 2.0, section 3.7.2.1 (bitangent = cross(normal, tangent.xyz) tangent.w) and section 3.9.3 (normalTextureInfo.scale on x and y).
+// glTF 2.0, section 3.7.2.1 (bitangent) and section 3.9.3 (normalTextureInfo.scale).
 glm::dvec3 SurfaceReader::mapped_normal(const Slot& slot, double scale, const glm::dvec3& normal, const Hit& hit,
                                         const Footprint& footprint) const {
   const Placed& placed = geometry_.placed(hit.triangle);
@@ -332,6 +254,14 @@ glm::dvec3 SurfaceReader::mapped_normal(const Slot& slot, double scale, const gl
   const glm::dvec3 texel = glm::dvec3(read(slot, hit, footprint)) * 2.0 - 1.0;
   const glm::dvec3 bent = unit_or(glm::dvec3(texel.x * scale, texel.y * scale, texel.z), glm::dvec3(0.0, 0.0, 1.0));
   return unit_or(tangent * bent.x + bitangent * bent.y + normal * bent.z, normal);
+}
+
+// The normal by the map whose level is chosen.
+glm::dvec3 SurfaceReader::mapped_normal(const Hit& hit, const Ray& ray, LodChoice lod) const {
+  const Material& m = materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)];
+  const Slot& slot = slot_of(m, lod.slot);
+  const double scale = &slot == &m.normal ? m.source->normal_scale : m.source->clearcoat.normal_scale;
+  return mapped_normal(slot, scale, interpolated_normal(hit), hit, footprint(hit, ray, lod));
 }
 
 Surface<double> SurfaceReader::surface(const Hit& hit, const Ray& ray, LodChoice lod) const {

@@ -66,9 +66,13 @@ class SurfaceReader {
 
   /// Textures a material may have; base colour is the first.
   static constexpr std::size_t slot_count = 12;
+  static constexpr bool is_normal_map(std::size_t slot) { return slot == 2 || slot == 10; }
 
   /// From the least level allowed for one texture of the surface at a hit to the most; none where it has no mipmaps or is not there.
   std::optional<LodInterval> lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const;
+
+  /// levels_within() for a texture with mipmaps, or whose two filters differ.
+  std::vector<double> levels(const Slot& slot, const Hit& hit, const Ray& ray) const { return levels_within(lod_interval(slot, hit, ray)); }
 
   /// levels_within() for one texture at a hit; of a normal map as many more as leave no more than a hundredth of a radian between the
   /// normals of two neighbours: a lobe may rise and fall again while a normal swings past it. Empty where the level changes nothing.
@@ -92,10 +96,12 @@ class SurfaceReader {
   glm::dvec2 texcoord(const Slot& slot, const Hit& hit, const glm::dvec3& weights) const;
   glm::dvec2 coordinate_rounding(const Slot& slot, const Hit& hit) const;
   glm::dvec2 moved_by_step(const Slot& slot, const Hit& hit, const Ray& ray) const;
+  LodInterval lod_interval(const Slot& slot, const Hit& hit, const Ray& ray) const;
   glm::dvec3 weights_beside(const Hit& hit, const Ray& ray, double dx, double dy, bool& beyond) const;
   double level(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec4 read(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec3 mapped_normal(const Slot& slot, double scale, const glm::dvec3& normal, const Hit& hit, const Footprint& footprint) const;
+  glm::dvec3 mapped_normal(const Hit& hit, const Ray& ray, LodChoice lod) const;
   glm::dvec3 interpolated_normal(const Hit& hit) const;
   Footprint footprint(const Hit& hit, const Ray& ray, LodChoice lod) const;
 

@@ -66,6 +66,10 @@ void Tile::add_levels(const Seen& seen, const Ray& ray) {
       return;
     }
     for (std::size_t slot = 0; slot < SurfaceReader::slot_count; ++slot) {
+      // Of textures that bend no normal the bounded surface holds every level; but not of an environment's light.
+      if (!has_environment() && !SurfaceReader::is_normal_map(slot)) {
+        continue;
+      }
       const std::vector<double> levels = frame_.reader.levels_to_try(hit, ray, slot);
       if (levels.empty()) {
         continue;
@@ -140,8 +144,7 @@ Tile::Plan Tile::plan(int x, int y) {
     plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
     return plan;
   }
-  look_around(plan);
-  plan.enclosed = enclose();
+  plan.enclosed = enclose(look_around(plan));
   if (has_environment()) {
     add_sample_with_tie(centre.seen, centre.ray);
     add_shifted();

@@ -73,8 +73,9 @@ class Tile {
   };
 
   Plan plan(int x, int y);
-  void look_around(Plan& plan);
-  Enclosed enclose() const;
+  double look_around(Plan& plan);
+  void look(double step, Plan& plan);
+  Enclosed enclose(double step) const;
   void add_shifted();
   void add_carried_on();
   bool add_nudged(bool samples);

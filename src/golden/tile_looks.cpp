@@ -50,9 +50,24 @@ Seen Tile::extended(const Seen& centre, const Ray& ray) const {
   return out;
 }
 
-// What the corners of the step see.
-void Tile::look_around(Plan& plan) {
-  const double step = displacement(frame_.settings);
+// What the corners of the step see, which is returned: as far as the surfaces that are seen may be displaced.
+double Tile::look_around(Plan& plan) {
+  double step = bound_->step(looks_[0].seen);
+  while (true) {
+    look(step, plan);
+    double farther = step;
+    for (const Look& look : looks_) {
+      farther = std::max(farther, bound_->step(look.seen));
+    }
+    // Neighbours on one surface differ by less than this; a nearer surface may be displaced farther.
+    if (farther <= 1.05 * step) {
+      return farther;
+    }
+    step = farther;
+  }
+}
+
+void Tile::look(double step, Plan& plan) {
   const Look& centre = looks_[0];
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const double dx = (corner & 1u) != 0 ? step : -step;
@@ -68,11 +83,11 @@ void Tile::look_around(Plan& plan) {
 
 // A driver whose grid moves an edge past a sample shades that sample with the triangles of the other side, carried on beyond the edge: with
 // all that any of the looks meets, and the other of two surfaces at one depth.
-Enclosed Tile::enclose() const {
+Enclosed Tile::enclose(double step) const {
   const Look& centre = looks_[0];
-  Enclosed all = bound_->of(centre.seen, centre.ray);
+  Enclosed all = bound_->of(centre.seen, centre.ray, step);
   const auto include = [&](const Seen& seen) {
-    const Enclosed other = bound_->of(extended(seen, centre.ray), centre.ray);
+    const Enclosed other = bound_->of(extended(seen, centre.ray), centre.ray, step);
     all.deviation = glm::max(all.deviation, glm::abs(other.value - all.value) + other.deviation);
   };
   for (std::size_t k = 0; k < looks_.size(); ++k) {

@@ -29,25 +29,47 @@ Interpolation::Interpolation(const Geometry& geometry, const RayGenerator& rays,
   const double most = std::max({moved.x, moved.y, moved.z, std::abs(sum_x_) + std::abs(sum_y_)});
   within_ = most < std::abs(sum_);
   if (rays.camera().perspective) {
-    double nearest = hit.t;
-    for (const std::uint32_t vertex : geometry.vertices(hit.triangle)) {
-      nearest = std::min(nearest, rays.depth(geometry.positions()[vertex]));
+    add_corners(geometry, rays, hit);
+  }
+}
+
+void Interpolation::add_corners(const Geometry& geometry, const RayGenerator& rays, const Hit& hit) {
+  const double near = rays.camera().znear;
+  std::array<double, 3> depth{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    depth.at(i) = rays.depth(geometry.positions()[geometry.vertices(hit.triangle).at(i)]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t next = (i + 1) % 3;
+    if (depth.at(i) >= near) {
+      corners_.at(corner_count_)[static_cast<int>(i)] = hit.t / depth.at(i);
+      ++corner_count_;
     }
-    nearness_ = hit.t / std::max(nearest, rays.camera().znear);
+    if ((depth.at(i) < near) != (depth.at(next) < near)) {
+      const double share = (near - depth.at(i)) / (depth.at(next) - depth.at(i));
+      corners_.at(corner_count_)[static_cast<int>(i)] = (1.0 - share) * hit.t / near;
+      corners_.at(corner_count_)[static_cast<int>(next)] = share * hit.t / near;
+      ++corner_count_;
+    }
   }
 }
 
 // The exact value is N / D with N and D affine in the displacement: its deviation from the linear part is that part times D0 / D - 1.
 // Roundings: by the specification's formula, a sum of three a f / w over a sum of three a / w, each term has 3.5 and each sum 2 of the
-// largest term, and the quotient 2.5: 13.5, of f as it is magnified by 1 / w. An implementation may as well walk along the plane of f / w
-// from the window's corner: four roundings of what the plane spans there.
+// largest term, and the quotient 2.5: 13.5, of f / w where that is largest; a corner that clipping makes adds 3 of f. An implementation may
+// as well walk along the plane of f / w from the window's corner: four roundings of what the plane spans there.
 Varying Interpolation::operator()(const std::array<double, 3>& f, double rounding) const {
   constexpr double epsilon = number::epsilon<number::Highp>;
   const glm::dvec3 at(f[0], f[1], f[2]);
   const double largest = std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
   Varying v;
   v.value = glm::dot(weights_, at);
-  v.radius = (13.5 * epsilon * largest + rounding) * nearness_;
+  double magnified = corner_count_ == 0 ? largest : std::abs(v.value);
+  for (std::size_t i = 0; i < corner_count_; ++i) {
+    magnified = std::max(magnified, std::abs(glm::dot(corners_.at(i), at)));
+  }
+  const glm::dvec3 shares = glm::abs(weights_);
+  v.radius = 13.5 * epsilon * magnified + 3.0 * epsilon * largest + rounding * (shares.x + shares.y + shares.z);
   if (!within_) {
     const double spread = std::max({f[0], f[1], f[2]}) - std::min({f[0], f[1], f[2]});
     v.radius += 3.0 * spread;  // weights from -1 to 2

@@ -14,10 +14,6 @@ struct Varying {
   double radius = 0;                ///< all else: curvature over the step, the vertex shader's rounding, the rasteriser's; may be infinite
 };
 
-/// Roundings of a vertex shader that multiplies a matrix of floats by a vector, in units of highp's epsilon and relative to the sum of the
-/// products' magnitudes: 1 for the matrix's own digits, 1 for the product, 2 for two sums; a fourth column's product is by 1.
-inline constexpr double transform_roundings = 4;
-
 /// One triangle under one sample, ready to interpolate whatever stands at its vertices (OpenGL ES 3.0.6, section 3.6.1).
 class Interpolation {
  public:
@@ -29,11 +25,15 @@ class Interpolation {
   Varying operator()(const std::array<double, 3>& at_vertices, double rounding) const;
 
  private:
+  void add_corners(const Geometry& geometry, const RayGenerator& rays, const Hit& hit);
+
   glm::dvec3 weights_;
   glm::dvec3 volumes_{0.0}, volumes_x_{0.0}, volumes_y_{0.0};  // edge functions at the sample, and their changes a step; affine in it
   double sum_ = 0, sum_x_ = 0, sum_y_ = 0;
-  bool within_ = false;       // whether the step is small beside the triangle and the horizon of its plane
-  double nearness_ = 1;       // depth here over the nearest vertex's
+  bool within_ = false;  // whether the step is small beside the triangle and the horizon of its plane
+  // Weights of the corners of what lies beyond the near plane, each times the depth here over its own; in perspective alone.
+  std::array<glm::dvec3, 6> corners_{};
+  std::size_t corner_count_ = 0;
   double steps_x_, steps_y_;  // the picture's size, in steps
 };
 
