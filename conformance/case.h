@@ -26,10 +26,10 @@ struct Case {
   albedo::SheenModel model;  ///< the form of the model that is asked for
   int width = 128;
   int height = 128;
-  std::string environment;  ///< what lights it from everywhere, a name of environments.h; empty: nothing
+  std::string environment;                     ///< what lights it from everywhere, a name of environments.h; empty: nothing
   std::optional<golden::Precision> precision;  ///< of the lobes' arithmetic, asked for and judged by; none: what the run says
-  bool refused = false;     ///< whether the scene breaks a rule, so that it must not be drawn
-  std::string law;          ///< what the case holds a viewer to, in a sentence, with its source; may be empty
+  bool refused = false;                        ///< whether the scene breaks a rule, so that it must not be drawn
+  std::string law;                             ///< what the case holds a viewer to, in a sentence, with its source; may be empty
 };
 
 /// The words of the command line: "charlie", "ashikhmin", "refined".

@@ -166,11 +166,10 @@ void check_size(const json& size, const Place& place) {
 
 void check_description(const json& description, const std::string& file, const std::string& element) {
   const Place place{file, element};
-  check_keys(
-      description,
-      {"shape", "node", "vertex_colors", "mirrored_texcoords", "material", "lights", "environment", "law", "camera", "model", "size",
-       "precision", "refused"},
-      file, element);
+  check_keys(description,
+             {"shape", "node", "vertex_colors", "mirrored_texcoords", "material", "lights", "environment", "law", "camera", "model", "size",
+              "precision", "refused"},
+             file, element);
   for (const char* key : {"shape", "material", "lights", "camera", "size"}) {
     require(description, key, place);
   }

@@ -147,10 +147,22 @@ struct NamedShape {
   Shape (*make)();
 };
 constexpr std::array<NamedShape, 6> all_shapes = {{
-    {"sphere", [] { return tessellate(96, 48, {2.0, 1.0}, sphere_point); }},
-    {"cloth", [] { return tessellate(64, 64, {1.0, 1.0}, cloth_point); }},
-    {"ring", [] { return tessellate(96, 40, {4.0, 1.0}, ring_point); }},
-    {"square", [] { return tessellate(1, 1, {1.0, 1.0}, square_point); }},
+    {"sphere",
+     [] {
+       return tessellate(96, 48, {2.0, 1.0}, sphere_point);
+     }},
+    {"cloth",
+     [] {
+       return tessellate(64, 64, {1.0, 1.0}, cloth_point);
+     }},
+    {"ring",
+     [] {
+       return tessellate(96, 40, {4.0, 1.0}, ring_point);
+     }},
+    {"square",
+     [] {
+       return tessellate(1, 1, {1.0, 1.0}, square_point);
+     }},
     {"slivers", slivers},
     {"broken_normals", broken_normals},
 }};

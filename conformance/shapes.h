@@ -20,8 +20,8 @@ struct Shape {
 };
 
 /// "sphere" (radius 1, 96 x 48), "cloth" (a rolling patch that faces +Z), "ring" (a torus, turned toward the viewer), "square" (flat,
-/// from -1 to 1 in x and y, faces +Z), "slivers" (the same of triangles 500 times as long as high) or "broken_normals" (the same with normals
-/// of length 0, 1e-6 and 1000).
+/// from -1 to 1 in x and y, faces +Z), "slivers" (the same of triangles 500 times as long as high) or "broken_normals" (the same with
+/// normals of length 0, 1e-6 and 1000).
 bool is_shape(const std::string& name);
 /// The names, for messages.
 std::string shape_names();

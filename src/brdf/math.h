@@ -26,8 +26,8 @@ inline long double select(bool condition, long double a, long double b) {
   return condition ? a : b;
 }
 
-/// The number type in which a formula takes exponents and logarithms that a shader of low precision keeps in high precision; its own, unless
-/// specialised, and the ways there and back.
+/// The number type in which a formula takes exponents and logarithms that a shader of low precision keeps in high precision; its own,
+/// unless specialised, and the ways there and back.
 template <class Real>
 struct Exponents {
   using Type = Real;

@@ -28,7 +28,7 @@ struct Settings {
   /// SUBPIXEL_BITS of the driver the golden is to judge: its grid may move a sample by 2^-bits pixel along each axis (OpenGL ES 3.0.6,
   /// section 6.2, table 6.29: at least 4).
   int subpixel_bits = 8;
-  Precision precision = Precision::Highp;  ///< of the shader the golden is to judge: its bounds
+  Precision precision = Precision::Highp;           ///< of the shader the golden is to judge: its bounds
   const scene::Environment* environment = nullptr;  ///< light from everywhere, besides the scene's lights; must outlive its use
   SamplingGoal sampling;                            ///< of an environment that is an image
   bool bounds = true;                               ///< whether to compute the bound channels
