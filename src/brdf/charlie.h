@@ -14,7 +14,8 @@ Real charlie_distribution_of_squares(Real alpha_g, Real cos2, Real sin2_theta_h)
   const Real p = Real(0.5) / alpha_g;
   // log1p keeps the digits of a small cosine that "1 - cos2" loses and that a large exponent would magnify.
   // At N.H = 1, where D is 0, a logarithm of 1e-30 leaves less than 1e-15 of it.
-  const Real log_sin2 = select(cos2 < Real(0.25), log1p(-min(cos2, Real(0.25))), log(max(sin2_theta_h, Real(1e-30))));
+  const Real log_sin2 = select_of(
+      cos2 < Real(0.25), [&] { return Real(log1p(-min(cos2, Real(0.25)))); }, [&] { return Real(log(max(sin2_theta_h, Real(1e-30)))); });
   const Real d = (Real(1) + p) * exp(p * log_sin2) * Real(1 / pi);
   return select(alpha_g > Real(smallest_alpha_g), d, Real(0));
 }

@@ -40,6 +40,16 @@ inline bool any(bool condition) {
   return condition;
 }
 
+/// select() of what two functions give: a single value needs but one of them.
+template <class A, class B>
+auto select_of(bool condition, const A& a, const B& b) {
+  return condition ? a() : b();
+}
+template <class Condition, class A, class B>
+auto select_of(const Condition& condition, const A& a, const B& b) {
+  return select(condition, a(), b());
+}
+
 /// x^y for y > 0 and x >= 0, which is 0 at x = 0. Apart from pow, since GLSL derives pow from log2 and promises nothing at 0: shaders
 /// branch there, and a number type that knows of it brings its own.
 template <class Real>

@@ -21,4 +21,10 @@ constexpr bool any(Truth t) {
   return !t.is_false();
 }
 
+/// select() of what two functions give; where the choice is certain, one of them is called.
+template <class A, class B>
+auto select_of(Truth condition, const A& a, const B& b) {
+  return condition.is_either() ? select(condition, a(), b()) : condition.is_true() ? a() : b();
+}
+
 }  // namespace sheen::number
