@@ -6,7 +6,7 @@ namespace {
 constexpr const char* metal_fresnel = "vec3 Fm = material.baseColor + (1.0 - material.baseColor) * w;";
 constexpr const char* specular_lobe = "float lobe = specular_ggx(N, H, NdotL, NdotV, material.alpha);";
 constexpr const char* height_correlated = "return 0.5 * (NdotL / max(GGXV + GGXL, SMALLEST_SHADING_VALUE));";
-constexpr const char* blended = "out_color = vec4(radiance * base_color.a, base_color.a);";
+constexpr const char* blended = "out_color = vec4(radiance * alpha, alpha);";
 
 }  // namespace
 
@@ -81,15 +81,15 @@ std::vector<Mutant> output_mutants() {
       {.name = "alpha.not_premultiplied",
        .why = "the blend function expects colours times alpha and gets them without",
        .first = {{"core", "surface.blended"}},
-       .edits = {{"main.frag", blended, "out_color = vec4(radiance, base_color.a);"}}},
+       .edits = {{"main.frag", blended, "out_color = vec4(radiance, alpha);"}}},
       {.name = "alpha.premultiplied_twice",
        .why = "the shader multiplies, and the blend function does so again",
        .first = {{"core", "surface.blended"}},
-       .edits = {{"main.frag", blended, "out_color = vec4(radiance * base_color.a * base_color.a, base_color.a);"}}},
+       .edits = {{"main.frag", blended, "out_color = vec4(radiance * alpha * alpha, alpha);"}}},
       {.name = "alpha.coverage_of_blended_surfaces_is_one",
        .why = "the alpha that is written is that of a picture without any",
        .first = {{"core", "surface.blended"}},
-       .edits = {{"main.frag", blended, "out_color = vec4(radiance * base_color.a, 1.0);"}}},
+       .edits = {{"main.frag", blended, "out_color = vec4(radiance * alpha, 1.0);"}}},
       {.name = "emission.ignored",
        .why = "emission is a thing of the lights",
        .first = {{"core", "emission.*"}},

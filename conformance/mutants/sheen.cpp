@@ -46,7 +46,7 @@ std::vector<Mutant> sheen_lobe_mutants() {
                   "SheenCoefficients(25.6095 - a, 7.61507 - b, 0.62137 - c, -3.04421 - d, -2.99057 - e)"}}},
       {.name = "sheen.exponent_not_halved",
        .why = "sin^2 is raised to 1 / alpha_g, the exponent that belongs to the sine",
-       .edits = {{"sheen_distribution.glsl", "exp(max(0.5 * inv_r * log_sin2h", "exp(max(inv_r * log_sin2h"}}},
+       .edits = {{"sheen_distribution.glsl", "exponent = 0.5 * inv_r * log_sin2h", "exponent = inv_r * log_sin2h"}}},
       {.name = "sheen.sin2_floored_for_half_floats",
        .why = "2^-7 under the power keeps half floats from underflow, and is kept where floats are whole",
        .first = {{"core", "sheen.white.roughness_100.*"}},

@@ -31,8 +31,10 @@ LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const 
   const double last = std::log2(std::max(size.x, size.y)) + 1.0;
   glm::dvec2 texels[9];
   bool beyond = false;
-  for (int i = 0; i < 9; ++i) {
-    texels[i] = texcoord(slot, hit, weights_beside(hit, ray, i % 3 - 1, i / 3 - 1, beyond)) * size;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      texels[3 * row + column] = texcoord(slot, hit, weights_beside(hit, ray, column - 1, row - 1, beyond)) * size;
+    }
   }
   if (beyond) {
     return {-1.0, last};
