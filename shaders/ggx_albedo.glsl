@@ -8,7 +8,7 @@ uniform highp sampler2D u_ggx_albedo;
 
 const highp float GGX_ALBEDO_STEP_X = 0.165;
 const highp float GGX_ALBEDO_STEP_Y = 0.2;
-const highp float GGX_ALBEDO_MIRROR_ALPHA = 1e-8;  // up to here a mirror is taken, which loses nothing
+const highp float GGX_ALBEDO_MIRROR_ALPHA = 9.9e-9;  // up to here a mirror is taken, which loses nothing
 
 struct GgxAlbedo {
     highp float missing;

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "albedo/sheen_model.h"
+#include "brdf/math.h"
 
 namespace sheen::albedo {
 
@@ -15,8 +15,10 @@ namespace sheen::albedo {
 // varies like powers of T and r, hence the logarithms. At normal incidence x is linear in the angle.
 
 /// T of mu = N.V in (0, 1].
-inline double half_elevation_tangent(double mu) {
-  return mu / (1 + std::sqrt((1 - mu) * (1 + mu)));
+template <class Real>
+Real half_elevation_tangent(Real mu) {
+  using brdf::sqrt;
+  return mu / (Real(1) + sqrt((Real(1) - mu) * (Real(1) + mu)));
 }
 
 /// mu of T in (0, 1].
@@ -25,8 +27,10 @@ inline double cosine_of(double t) {
 }
 
 /// p ln(1 + T^2): minus the logarithm of the peak.
-inline double log_peak_drop(double t, double r) {
-  return 0.5 / (r * r) * std::log1p(t * t);
+template <class Real>
+Real log_peak_drop(Real t, Real r) {
+  using brdf::log1p;
+  return Real(0.5) / (r * r) * log1p(t * t);
 }
 
 /// x at mu = 0.5, where the two branches of Lambda meet and h has a jump in its second derivative: -ln(2 + sqrt(3)).

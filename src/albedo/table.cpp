@@ -74,32 +74,4 @@ double lookup(const Table& table, double n_dot_v, double sheen_roughness) {
   return std::exp(h - log_peak_drop(t, r));
 }
 
-// In units of highp's epsilon, relative unless said otherwise. T: 6 for the root of a product of two sums (its inverse root 2, the quotient
-// 2.5, half of 3), 1 for the sum, 2.5 for the quotient: 9.5. log_peak_drop: T^2 20, the sum and the quotient of its logarithm's argument
-// 3.5, the series 4.5, 0.5 / r^2 and the product 5: 33. A position: its logarithm's 4 ulp or absolute 2^-21, T's 9.5, and 3.5 of its own.
-// The polynomial: 9 a product of weights, 1 for its product with a value and 5 for sums, of values whose weights' magnitudes add up to at
-// most 1.631^2 (in a corner's cell). exp: 4 + 2 |x| ulp of its result, and x's own error is relative in its result.
-double lookup_error(double e, double n_dot_v, double sheen_roughness) {
-  constexpr double epsilon = 0x1p-23;
-  constexpr double logarithm = 0x1p-21;
-  const double beyond_rounding = interpolation_error * std::max(e, 1.0);
-  const double r = std::min(sheen_roughness, 1.0);
-  const double t = half_elevation_tangent(std::clamp(n_dot_v, min_n_dot_v, 1.0));
-  if (!(r > Table::min_roughness)) {
-    return 0;  // neither reads a table there
-  }
-  const double drop = log_peak_drop(t, r);
-  if (drop > 25) {
-    return beyond_rounding;  // E is below 1e-7 of that
-  }
-  const double x = -std::log(t);
-  const double y = -std::log(r);
-  const double column = (std::max(4 * epsilon * x, logarithm) + 9.5 * epsilon + 3.5 * epsilon * x) / Table::step_x;
-  const double along = Table::density * (1 - r) + y;
-  const double row = (std::max(4 * epsilon * y, logarithm) + 2 * epsilon * Table::density + 4.5 * epsilon * along) / Table::step_y;
-  const double h = 40 * epsilon * Table::largest_value + column * Table::largest_column_step + row * Table::largest_row_step;
-  const double exponent = h + 33 * epsilon * drop + epsilon * std::abs(std::log(e));
-  return beyond_rounding + e * (exponent + (4 + 2 * std::abs(std::log(e))) * epsilon);
-}
-
 }  // namespace sheen::albedo

@@ -38,8 +38,4 @@ Table build_table(Visibility visibility);
 double lookup(const Table& table, double n_dot_v, double sheen_roughness);
 inline constexpr double interpolation_error = 2e-5;
 
-/// How far from E what a shader reads from the table may lie, by interpolation and by roundings in highp (number/precision.h states the
-/// rules), both arguments being exact. @param e  E at them
-double lookup_error(double e, double n_dot_v, double sheen_roughness);
-
 }  // namespace sheen::albedo

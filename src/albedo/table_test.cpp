@@ -8,6 +8,7 @@
 
 #include "albedo/coordinates.h"
 #include "albedo/directional_albedo.h"
+#include "albedo/lookup_error.h"
 
 namespace sheen::albedo {
 namespace {
@@ -69,8 +70,8 @@ TEST(Table, ALookUpInFloatsStaysWithinLookupError) {
     const double h = std::log(lookup(table, mu, r)) + exact_drop;
     const double error = std::abs(static_cast<double>(std::exp(static_cast<float>(h) - drop)) - e);
     if (e > 1e-10) {
-      EXPECT_LE(error, lookup_error(e, mu, r)) << mu << ' ' << r;
-      closest = std::max(closest, error / lookup_error(e, mu, r));
+      EXPECT_LE(error, lookup_error<double>(e, mu, r)) << mu << ' ' << r;
+      closest = std::max(closest, error / lookup_error<double>(e, mu, r));
     }
   }
   EXPECT_GT(closest, 0.1);

@@ -10,22 +10,34 @@
 
 namespace sheen::golden {
 
+/// E at a material's sheen roughness and at both ends of what a shader may hold of it.
+struct AlbedoAround {
+  albedo::Curve lower, center, upper;
+};
+
+/// Where E comes from. Plain pointers, so that a batched translation unit instantiates no container.
+struct SheenAlbedo {
+  const albedo::Interpolant* interpolant = nullptr;  ///< needed where a surface has sheen
+  const albedo::Curve* curve = nullptr;              ///< at the roughness of one surface under many lights
+  const AlbedoAround* around = nullptr;              ///< at the one roughness of all surfaces, for number types that have ranges
+};
+
 /// How a number type reads what is tabulated: lane by lane. A type that carries more than its value brings its own.
 template <class Real>
 struct AlbedoReader {
   using Lanes = number::Lanes<Real>;
 
-  /// E at a cosine and a sheen_roughness; from `curve`, if there is one, at that one's roughness.
-  static Real sheen(const albedo::Interpolant* albedo, const albedo::Curve* curve, const Real& cosine, const Real& sheen_roughness) {
-    if (curve != nullptr) {
-      return (*curve)(cosine);
+  /// E at a cosine and a sheen_roughness.
+  static Real sheen(const SheenAlbedo& albedo, const Real& cosine, const Real& sheen_roughness) {
+    if (albedo.curve != nullptr) {
+      return (*albedo.curve)(cosine);
     }
     double c[Lanes::count];
     double r[Lanes::count];
     Lanes::store(c, cosine);
     Lanes::store(r, sheen_roughness);
     for (std::size_t i = 0; i < Lanes::count; ++i) {
-      c[i] = (*albedo)(c[i], r[i]);
+      c[i] = (*albedo.interpolant)(c[i], r[i]);
     }
     return Lanes::load(c);
   }

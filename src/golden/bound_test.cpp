@@ -219,8 +219,11 @@ TEST(Bound, HoldsTheCoverageOfABlendedTexture) {
   EXPECT_EQ(golden.at(0, 0, bound), 0.0f) << "no surface covers nothing, exactly";
 }
 
-// A square under 64 x 64 texels of noise, as seen by 32-bit floats and beyond them.
-TEST(Bound, ATextureWithoutMipmapsSeenFromTooFarIsLeftOutAndOneWithThemIsNot) {
+// A square under 64 x 64 texels of noise, seen from so far that a moved sample may meet any of them: without mipmaps the bound holds all
+// that they may show, under an environment, whose light is found at a few of them, the pixel is left out.
+TEST(Bound, HoldsEveryTexelThatAMovedSampleMayMeet) {
+  scene::Environment uniform;
+  uniform.uniform = glm::dvec3(1.0);
   for (const auto mip : {scene::MipFilter::None, scene::MipFilter::Linear}) {
     for (const double tiles : {1.0, 1000.0}) {  // 8 and 8000 texels a pixel, of which the step is 1/512
       scene::Scene s = test::scene_with(test::square(0.9), test::lambertian(glm::dvec4(1.0)), test::orthographic_at(5.0, 1.0),
@@ -229,9 +232,16 @@ TEST(Bound, ATextureWithoutMipmapsSeenFromTooFarIsLeftOutAndOneWithThemIsNot) {
       texture = test::add_texture(s, test::picture(64, 64, [](int x, int y) { return glm::ivec4((x * 37 + y * 91) % 256); }));
       texture.transform = glm::dmat3(tiles, 0.0, 0.0, 0.0, tiles, 0.0, 0.0, 0.0, 1.0);
       s.textures[0].sampler.mip = mip;
-      const image::Image golden = render(s, test::settings_for(8, 8, true));
+      Settings settings = test::settings_for(8, 8, true);
+      const image::Image golden = render(s, settings);
       const bool too_far = mip == scene::MipFilter::None && tiles > 1.0;
-      EXPECT_EQ(golden.at(4, 4, golden.channel("excluded")), too_far ? 3.0f : 0.0f) << tiles;
+      EXPECT_EQ(golden.at(4, 4, golden.channel("excluded")), 0.0F) << tiles;
+      const double value = golden.at(4, 4, 0);
+      const double bound = golden.at(4, 4, golden.channel("bound.R"));
+      EXPECT_EQ(value + bound >= 1.0 / brdf::pi && value - bound <= 0.0, too_far) << tiles;
+      settings.environment = &uniform;
+      const image::Image lit = render(s, settings);
+      EXPECT_EQ(lit.at(4, 4, lit.channel("excluded")), too_far ? 3.0F : 0.0F) << tiles;
     }
   }
 }

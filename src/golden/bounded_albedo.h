@@ -4,30 +4,38 @@
 #include <cmath>
 
 #include "albedo/ggx_table.h"
-#include "albedo/table.h"
+#include "albedo/lookup_error.h"
 #include "golden/albedo_reader.h"
 #include "golden/shade.h"
 #include "number/bounded_conversion.h"
 
 namespace sheen::golden {
 
+/// E falls with its cosine from here up, for every visibility and roughness (KHR_materials_sheen leaves that unsaid;
+/// directional_albedo_test holds it).
+inline constexpr double decreasing_from = 0.008;
+
 /// Tabulated albedos on number::Bounded: value and slope at the centre, all that the arguments' ranges reach, and what a shader that reads
 /// a table in highp is off. The albedos have no bend that matters over ranges as small as those of a rounding or of a sub-pixel step: what
-/// is left of the slope is taken at the ranges' ends, each of which with each of the other's.
+/// is left of the slope is taken at the ranges' ends, each of which with each of the other's and with its centre.
 template <class Precision>
 struct AlbedoReader<number::Bounded<Precision>> {
   using B = number::Bounded<Precision>;
 
-  static B sheen(const albedo::Interpolant* albedo, const albedo::Curve*, const B& cosine, const B& sheen_roughness) {
-    const auto e = [albedo](double c, double r) { return (*albedo)(c, r); };
+  static B sheen(const SheenAlbedo& albedo, const B& cosine, const B& sheen_roughness) {
     const auto error = [](double value, double c, double r) { return albedo::lookup_error(value, c, r); };
-    return read(e, error, cosine, sheen_roughness);
+    if (albedo.around != nullptr) {
+      const auto curve = [&around = *albedo.around](double c, End roughness) {
+        return (roughness == End::Center ? around.center : roughness == End::Lower ? around.lower : around.upper)(c);
+      };
+      return read(curve, error, cosine, sheen_roughness);
+    }
+    return read(at_ends(*albedo.interpolant, sheen_roughness), error, cosine, sheen_roughness);
   }
 
-  /// E falls with its cosine from 0.008 up, for every visibility and roughness (KHR_materials_sheen leaves that unsaid;
-  /// directional_albedo_test holds it).
   static bool is_smaller_for_light(const B& n_dot_l, const B& n_dot_v) {
-    return n_dot_v.is_bounded() && n_dot_l.is_bounded() && n_dot_v.range().lower >= 0.008 && n_dot_l.range().lower >= n_dot_v.range().upper;
+    return n_dot_v.is_bounded() && n_dot_l.is_bounded() && n_dot_v.range().lower >= decreasing_from &&
+           n_dot_l.range().lower >= n_dot_v.range().upper;
   }
 
   static brdf::LobeAlbedo<B> ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha) {
@@ -38,30 +46,48 @@ struct AlbedoReader<number::Bounded<Precision>> {
   }
 
  private:
+  enum class End { Lower, Center, Upper };
+
+  /// f(x, y) with y given as the end of a range.
+  template <class Function>
+  static auto at_ends(const Function& f, const B& y) {
+    return [&f, &y](double x, End end) {
+      return f(x, end == End::Center ? y.center() : end == End::Lower ? y.range().lower : y.range().upper);
+    };
+  }
+
   template <class Function, class Error>
   static B read(const Function& f, const Error& error, const B& x, const B& y) {
+    const double value = f(x.center(), End::Center);
     if (!x.is_bounded() || !y.is_bounded()) {
-      return B::unbounded(f(x.center(), y.center()));
+      return B::unbounded(value);
     }
-    const double value = f(x.center(), y.center());
     const double width = x.range().upper - x.range().lower;
     double lowest = value;
     double highest = value;
     double slope = 0;
     double remainder = 0;
-    if (width > 0) {
-      slope = (f(x.range().upper, y.center()) - f(x.range().lower, y.center())) / width;
-    }
-    const int columns = width > 0 ? 2 : 1;
-    const int rows = y.is_exact() ? 1 : 2;
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns && (columns > 1 || rows > 1); ++column) {
-        const double cosine = column == 0 ? x.range().lower : x.range().upper;
-        const double there = f(cosine, rows == 1 ? y.center() : row == 0 ? y.range().lower : y.range().upper);
-        lowest = std::min(lowest, there);
-        highest = std::max(highest, there);
-        remainder = std::max(remainder, std::abs(there - value - slope * (cosine - x.center())));
+    const auto include = [&](double cosine, double there) {
+      lowest = std::min(lowest, there);
+      highest = std::max(highest, there);
+      remainder = std::max(remainder, std::abs(there - value - slope * (cosine - x.center())));
+    };
+    const auto include_ends = [&](End end) {
+      include(x.range().lower, f(x.range().lower, end));
+      if (width > 0) {
+        include(x.range().upper, f(x.range().upper, end));
       }
+    };
+    if (width > 0) {
+      const double low = f(x.range().lower, End::Center);
+      const double high = f(x.range().upper, End::Center);
+      slope = (high - low) / width;
+      include(x.range().lower, low);
+      include(x.range().upper, high);
+    }
+    if (!y.is_exact()) {
+      include_ends(End::Lower);
+      include_ends(End::Upper);
     }
     const double off = error(highest, x.center(), y.center());
     return B::rounded({value, slope * x.shift_x(), slope * x.shift_y(), std::abs(slope) * x.radius() + remainder, {lowest, highest}},
@@ -75,7 +101,7 @@ struct AlbedoReader<number::Bounded<Precision>> {
     // The shader's table holds the logarithms of loss and scale; its bias is what they leave of 1.
     const auto of_loss = [](double value, double, double) { return albedo::ggx_table_error * value; };
     const auto of_bias = [](double, double, double) { return albedo::ggx_table_error; };
-    return {read(loss, of_loss, cosine, alpha), read(bias, of_bias, cosine, alpha)};
+    return {read(at_ends(loss, alpha), of_loss, cosine, alpha), read(at_ends(bias, alpha), of_bias, cosine, alpha)};
   }
 };
 

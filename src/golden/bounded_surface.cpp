@@ -36,22 +36,14 @@ struct Texel {
   Bound r{1}, g{1}, b{1}, a{1};
 };
 
-Bound channel(const Spread& s, int c) {
-  return Bound::within(s.value[c], s.radius[c]);
+Texel texel(const Spread& s) {
+  const auto channel = [&s](int c) { return Bound::within(s.value[c], s.radius[c]); };
+  return {channel(0), channel(1), channel(2), channel(3)};
 }
 
-/// The unit vector along v, `otherwise` where v certainly has no direction, and no bound where it may have none.
-Vector unit_or(const Vector& v, const Vector& otherwise) {
-  constexpr double smallest = 1e-30;  // of a squared length, in floats
-  const Bound squared = dot(v, v);
-  if (squared.is_bounded() && squared.range().lower > smallest) {
-    return v * inversesqrt(squared);
-  }
-  if (squared.is_bounded() && squared.range().upper <= smallest) {
-    return otherwise;
-  }
+Texel unbounded_texel() {
   const Bound none = Bound::unbounded(0.0);
-  return {none, none, none};
+  return {none, none, none, none};
 }
 
 glm::dmat3 rotation_into_view(const scene::Camera& camera) {
@@ -73,18 +65,28 @@ class BoundedSurfaceReader::At {
         interpolate_(r.geometry_, r.rays_, hit, ray, step) {}
 
   BoundedSurface read() const;
+  Bound opacity() const { return opacity(texture(material_.base_color)); }
 
  private:
   using Slot = SurfaceReader::Slot;
 
+  /// Where a texture is read.
+  struct Place {
+    glm::dvec2 uv, reach;
+    bool is_bounded() const { return std::isfinite(reach.x) && std::isfinite(reach.y); }
+  };
+
+  Place place(const Slot& slot) const;
   Texel texture(const Slot& slot) const;
-  Texel texture(const Slot& slot, const std::vector<double>& levels) const;
   Bound texture_coordinate(const Slot& slot, const std::array<Bound, 2>& uv, int row) const;
   Vector position() const;
   Vector face_normal(const Vector& position) const;
   Vector transformed(const std::array<glm::dvec3, 3>& directions, const glm::dmat3& view_from_local) const;
   Vector normal(const Vector& position) const;
-  Vector mapped_normal(const Slot& slot, double scale, const Vector& normal) const;
+  Vector tangent(const Vector& normal, bool& has_one) const;
+  Vector mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& others) const;
+  Bound opacity(const Texel& base_color) const;
+  Bound vertex_color(int channel) const;
   void read_base(Surface<Bound>& s, Bound& alpha) const;
   void read_layers(Surface<Bound>& s) const;
 
@@ -106,19 +108,7 @@ Bound BoundedSurfaceReader::At::texture_coordinate(const Slot& slot, const std::
   return Bound(m[0][row]) * uv[0] + Bound(m[1][row]) * uv[1] + Bound(m[2][row]);
 }
 
-Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
-  std::vector<double> levels;
-  if (slot.texture && slot.texture->needs_lod() && &slot != &material_.normal && &slot != &material_.clearcoat_normal) {
-    levels = r_.reader_.levels(slot, hit_, ray_);
-  }
-  return texture(slot, levels);
-}
-
-// At the ideal level, and at all that are given.
-Texel BoundedSurfaceReader::At::texture(const Slot& slot, const std::vector<double>& levels) const {
-  if (!slot.texture) {
-    return {};
-  }
+BoundedSurfaceReader::At::Place BoundedSurfaceReader::At::place(const Slot& slot) const {
   const auto& texcoords = placed_.primitive->texcoords[static_cast<std::size_t>(slot.texcoord)];
   std::array<Bound, 2> uv{Bound(0.0), Bound(0.0)};
   for (int axis = 0; axis < 2 && !texcoords.empty(); ++axis) {
@@ -127,19 +117,27 @@ Texel BoundedSurfaceReader::At::texture(const Slot& slot, const std::vector<doub
   }
   const Bound u = texture_coordinate(slot, uv, 0);
   const Bound v = texture_coordinate(slot, uv, 1);
-  if (!u.is_bounded() || !v.is_bounded()) {
-    const Bound none = Bound::unbounded(0.0);
-    return {none, none, none, none};
+  return {{u.center(), v.center()}, {u.deviation(), v.deviation()}};
+}
+
+// At the ideal level and at all others that are allowed.
+Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
+  if (!slot.texture) {
+    return {};
   }
-  const glm::dvec2 at(u.center(), v.center());
-  const glm::dvec2 reach(u.deviation(), v.deviation());
-  Spread s = sample_box(*slot.texture, at, reach, r_.reader_.level(slot, hit_, ray_));
-  // Between the levels that are tried a texture runs straight.
-  for (const double level : levels) {
-    const Spread there = sample_box(*slot.texture, at, reach, level);
-    s.radius = glm::max(s.radius, glm::abs(there.value - s.value) + there.radius);
+  const Place at = place(slot);
+  if (!at.is_bounded()) {
+    return unbounded_texel();
   }
-  return {channel(s, 0), channel(s, 1), channel(s, 2), channel(s, 3)};
+  TextureBox box(*slot.texture, at.uv, at.reach);
+  Spread s = box(r_.reader_.level(slot, hit_, ray_));
+  if (slot.texture->needs_lod()) {
+    for (const double level : r_.reader_.corners(slot, hit_, ray_)) {
+      const Spread there = box(level);
+      s.radius = glm::max(s.radius, glm::abs(there.value - s.value) + there.radius);
+    }
+  }
+  return texel(s);
 }
 
 // In view space.
@@ -205,37 +203,63 @@ Vector BoundedSurfaceReader::At::normal(const Vector& position) const {
   return unit_or(n, face_normal(position));
 }
 
-// glTF 2.0, sections 3.7.2.1 and 3.9.3, as SurfaceReader has it.
-Vector BoundedSurfaceReader::At::mapped_normal(const Slot& slot, double scale, const Vector& normal) const {
-  if (!slot.texture || placed_.primitive->tangents.empty()) {
-    return normal;
-  }
+// Unit. Where the shader finds none it has no use for the map.
+Vector BoundedSurfaceReader::At::tangent(const Vector& normal, bool& has_one) const {
   const auto& tangents = placed_.primitive->tangents;
   const std::array<glm::dvec3, 3> along{glm::dvec3(tangents[local_[0]]), glm::dvec3(tangents[local_[1]]), glm::dvec3(tangents[local_[2]])};
   const glm::dmat3 m = r_.view_from_world_ * placed_.linear;
-  if (m * along[0] == glm::dvec3(0.0) && m * along[1] == glm::dvec3(0.0) && m * along[2] == glm::dvec3(0.0)) {
-    return normal;
+  has_one = m * along[0] != glm::dvec3(0.0) || m * along[1] != glm::dvec3(0.0) || m * along[2] != glm::dvec3(0.0);
+  return has_one ? unit_or(transformed(along, m), normal) : normal;
+}
+
+// At the map's ideal level; and, in `others`, at all that are worth a try.
+Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& others) const {
+  const bool of_coat = map == SurfaceReader::clearcoat_normal_slot;
+  const Slot& slot = of_coat ? material_.clearcoat_normal : material_.normal;
+  const Vector facing = hit_.front ? normal : Vector{-normal.x, -normal.y, -normal.z};
+  if (!slot.texture || placed_.primitive->tangents.empty()) {
+    return facing;
   }
-  const Vector tangent = unit_or(transformed(along, m), normal);
+  bool has_tangent = false;
+  const Vector along = tangent(normal, has_tangent);
+  if (!has_tangent) {
+    return facing;
+  }
+  const auto& tangents = placed_.primitive->tangents;
   const Bound w = bound(interpolate_({tangents[local_[0]].w, tangents[local_[1]].w, tangents[local_[2]].w}, 0.0));
-  const Vector bitangent = cross(normal, tangent) * w;
-  const Texel texel = texture(slot);
-  const auto bent = [](const Bound& x, double by) { return (x * Bound(2) - Bound(1)) * Bound(by); };
-  const Vector up{Bound(0.0), Bound(0.0), Bound(1)};
-  const Vector n = unit_or({bent(texel.r, scale), bent(texel.g, scale), bent(texel.b, 1.0)}, up);
-  return unit_or(tangent * n.x + bitangent * n.y + normal * n.z, normal);
+  const Place at = place(slot);
+  TextureBox box(*slot.texture, at.uv, at.reach);
+  const auto mapped = [&, across = cross(normal, along) * w](double level) {
+    const Texel read = at.is_bounded() ? texel(box(level)) : unbounded_texel();
+    const Bound scale(of_coat ? material_.source->clearcoat.normal_scale : material_.source->normal_scale);
+    return MappedNormal<Bound>{along, across, normal, {read.r, read.g, read.b}, scale, Bound(hit_.front ? 1.0 : -1.0)};
+  };
+  for (const double level : r_.reader_.levels_to_try(hit_, ray_, map)) {
+    others.push_back(mapped(level));
+  }
+  return bent(mapped(r_.reader_.level(slot, hit_, ray_)));
+}
+
+Bound BoundedSurfaceReader::At::vertex_color(int channel) const {
+  const auto& colors = placed_.primitive->colors;
+  return bound(interpolate_({colors[local_[0]][channel], colors[local_[1]][channel], colors[local_[2]][channel]}, 0.0));
+}
+
+Bound BoundedSurfaceReader::At::opacity(const Texel& base_color) const {
+  Bound alpha = Bound(material_.source->base_color_factor.w) * base_color.a;
+  if (!placed_.primitive->colors.empty()) {
+    alpha = alpha * vertex_color(3);
+  }
+  return min(max(alpha, Bound(0.0)), Bound(1));
 }
 
 void BoundedSurfaceReader::At::read_base(Surface<Bound>& s, Bound& alpha) const {
   const scene::Material& source = *material_.source;
   const Texel base = texture(material_.base_color);
   Color color = color_of(glm::dvec3(source.base_color_factor)) * Color{base.r, base.g, base.b};
-  alpha = Bound(source.base_color_factor.w) * base.a;
-  const auto& colors = placed_.primitive->colors;
-  if (!colors.empty()) {
-    const auto vertex = [&](int k) { return bound(interpolate_({colors[local_[0]][k], colors[local_[1]][k], colors[local_[2]][k]}, 0.0)); };
-    color = color * Color{vertex(0), vertex(1), vertex(2)};
-    alpha = alpha * vertex(3);
+  alpha = opacity(base);
+  if (!placed_.primitive->colors.empty()) {
+    color = color * Color{vertex_color(0), vertex_color(1), vertex_color(2)};
   }
   const Texel metallic_roughness = texture(material_.metallic_roughness);
   const Bound roughness = Bound(source.roughness_factor) * metallic_roughness.g;
@@ -278,11 +302,9 @@ BoundedSurface BoundedSurfaceReader::At::read() const {
   const Vector toward{-s.position.x, -s.position.y, -s.position.z};
   s.view = r_.rays_.camera().perspective ? unit_or(toward, up) : up;
   const Vector interpolated = normal(s.position);
-  const auto facing = [this](const Vector& n) { return hit_.front ? n : Vector{-n.x, -n.y, -n.z}; };
-  s.normal = facing(mapped_normal(material_.normal, material_.source->normal_scale, interpolated));
-  s.coat_normal = facing(mapped_normal(material_.clearcoat_normal, material_.source->clearcoat.normal_scale, interpolated));
+  s.normal = mapped_normal(SurfaceReader::normal_slot, interpolated, out.normals);
+  s.coat_normal = mapped_normal(SurfaceReader::clearcoat_normal_slot, interpolated, out.coat_normals);
   read_base(s, out.opacity);
-  out.opacity = min(max(out.opacity, Bound(0.0)), Bound(1));
   read_layers(s);
   return out;
 }
@@ -293,6 +315,10 @@ BoundedSurfaceReader::BoundedSurfaceReader(const Geometry& geometry, const RayGe
 
 BoundedSurface BoundedSurfaceReader::read(const Hit& hit, const Ray& ray, double step) const {
   return At(*this, hit, ray, step).read();
+}
+
+Bound BoundedSurfaceReader::opacity(const Hit& hit, const Ray& ray, double step) const {
+  return At(*this, hit, ray, step).opacity();
 }
 
 }  // namespace sheen::golden

@@ -1,19 +1,22 @@
 #pragma once
 
+#include <vector>
+
+#include "golden/bound.h"
 #include "golden/geometry.h"
+#include "golden/mapped_normal.h"
 #include "golden/rays.h"
 #include "golden/surface.h"
 #include "golden/surface_reader.h"
-#include "number/bounded.h"
 
 namespace sheen::golden {
-
-using Bound = number::Bounded<number::Highp>;
 
 /// A surface with all that a conforming rasteriser and shader may find in its place while the sample is displaced within the step.
 struct BoundedSurface {
   Surface<Bound> surface;  ///< position and directions in view space, where a shader's roundings happen
   Bound opacity{1};
+  /// Of its normal maps at other levels of detail that OpenGL ES allows, from the least to the most.
+  std::vector<MappedNormal<Bound>> normals, coat_normals;
 };
 
 /// Reads surfaces as SurfaceReader does, on number::Bounded: the vertex shader's and the interpolation's roundings (varying.h), textures at
@@ -26,6 +29,9 @@ class BoundedSurfaceReader {
   /// At a hit of a ray; see Interpolation. Where a normal may or may not have a direction, it is unbounded.
   /// @param step  of the sample's displacement along either axis, pixels
   BoundedSurface read(const Hit& hit, const Ray& ray, double step) const;
+
+  /// Its opacity alone, in [0, 1].
+  Bound opacity(const Hit& hit, const Ray& ray, double step) const;
 
  private:
   class At;

@@ -118,7 +118,7 @@ TEST(ControlVariate, ItsIntegralIsThatOfItsProductWithTheImage) {
   CurveCache curves;
   Lighting lighting;
   const Surface<double> surface = cloth();
-  lighting.curve = curves.at(&interpolant, surface.sheen_roughness);
+  lighting.albedo.curve = curves.at(&interpolant, surface.sheen_roughness);
   const ControlVariate control = control_variate(surface, {true, true}, lighting);
   Color exact{0, 0, 0};
   sum_over(e, [&](const glm::dvec3& d, const glm::dvec3& arriving) {
@@ -173,7 +173,7 @@ TEST(ControlVariate, BatchesEqualOneAtATime) {
   const std::vector<double> one(control_nodes, 1.0);
   const DistantLights lights{x.data(), y.data(), z.data(), one.data(), one.data(), one.data()};
   Lighting lighting;
-  lighting.curve = curves.at(&interpolant, surface.sheen_roughness);
+  lighting.albedo.curve = curves.at(&interpolant, surface.sheen_roughness);
   lighting.distant = &lights;
   const NodeValues a = node_values_scalar(surface, {true, true}, lighting);
   const NodeValues b = node_values_batch(surface, {true, true}, lighting);

@@ -106,7 +106,7 @@ struct Task {
         sum{&dark, layers, lighting.lighting, &sampling, lighting.light->soft().texels(), lighting.light->bright().texels()} {
     dark.emission = {0, 0, 0};
     if (layers.sheen) {
-      sum.lighting.curve = curves.at(lighting.lighting.albedo, surface.sheen_roughness);
+      sum.lighting.albedo.curve = curves.at(lighting.lighting.albedo.interpolant, surface.sheen_roughness);
     }
   }
   Task(const Task&) = delete;

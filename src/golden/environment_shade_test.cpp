@@ -44,7 +44,7 @@ scene::Environment sky_with_sun() {
 
 Lighting lighting_with(const albedo::Interpolant& interpolant) {
   Lighting lighting;
-  lighting.albedo = &interpolant;
+  lighting.albedo.interpolant = &interpolant;
   return lighting;
 }
 
@@ -113,7 +113,7 @@ TEST(ImageSum, BatchesEqualOneAtATime) {
     const LobeSampling sampling = lobe_sampling(surface, {true, true}, true, true);
     ImageSumTask task{&surface, {true, true}, lighting_with(interpolant), &sampling, light.soft().texels(), light.bright().texels()};
     CurveCache curves;
-    task.lighting.curve = curves.at(&interpolant, surface.sheen_roughness);
+    task.lighting.albedo.curve = curves.at(&interpolant, surface.sheen_roughness);
     DirectionPool::LightBlock light_block;
     DirectionPool::LobeBlock lobe_block;
     StrategyPoints points;
@@ -184,7 +184,7 @@ TEST(EnvironmentShade, MeetsASumOverTheWholeImage) {
   const DistantLights all{lights[0].data(), lights[1].data(), lights[2].data(), lights[3].data(), lights[4].data(), lights[5].data()};
   CurveCache curves;
   Lighting lighting = lighting_with(interpolant);
-  lighting.curve = curves.at(&interpolant, surface.sheen_roughness);
+  lighting.albedo.curve = curves.at(&interpolant, surface.sheen_roughness);
   lighting.distant = &all;
   lighting.light_count = lights[0].size();
   const Color exact = shade(surface, {true, true}, lighting, NoListener{}).radiance;

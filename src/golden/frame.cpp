@@ -51,7 +51,7 @@ Lighting Frame::lighting(const TermFactors& factors) const {
   lighting.lights = lights.data();
   lighting.light_count = lights.size();
   lighting.sheen = model;
-  lighting.albedo = albedo ? &*albedo : nullptr;
+  lighting.albedo.interpolant = albedo ? &*albedo : nullptr;
   lighting.factors = factors;
   lighting.ggx = ggx ? &*ggx : nullptr;
   return lighting;

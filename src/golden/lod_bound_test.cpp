@@ -51,7 +51,8 @@ void hold_against_bound(const scene::Scene& s, const Vary& vary) {
           return LodChoice{range ? range->low + unit(generator) * (range->high - range->low) : 0.0, slot};
         };
         const Surface<double> surface = vary(frame.reader, *seen.nearest, ray, level_in);
-        const auto radiance = shade(surface, {true, false}, frame.lighting(), NoListener{}).radiance;
+        const Layers layers = frame.reader.layers(frame.geometry.placed(seen.nearest->triangle).material_index);
+        const auto radiance = shade(surface, layers, frame.lighting(), NoListener{}).radiance;
         const double value[3] = {radiance.r, radiance.g, radiance.b};
         for (int c = 0; c < 3; ++c) {
           ASSERT_LE(std::abs(value[c] - golden.at(x, y, c)), golden.at(x, y, 4 + c)) << x << " " << y << " channel " << c;
@@ -62,7 +63,7 @@ void hold_against_bound(const scene::Scene& s, const Vary& vary) {
   EXPECT_GT(held, size * size / 3);
 }
 
-constexpr std::size_t base_color_slot = 0, normal_slot = 2, sheen_color_slot = 6;  // SurfaceReader's order
+constexpr std::size_t base_color_slot = 0, normal_slot = 2, sheen_color_slot = 6, clearcoat_normal_slot = 10;  // SurfaceReader's order
 
 TEST(LodBound, HoldsEveryLevelOfANormalMapThatBendsFarAndOften) {
   scene::Scene s = tilted_cloth();
@@ -80,6 +81,34 @@ TEST(LodBound, HoldsWhenADriverPicksAnotherLevelForEachTexture) {
   hold_against_bound(s, [](const SurfaceReader& reader, const Hit& hit, const Ray& ray, const auto& level_in) {
     Surface<double> surface = reader.surface(hit, ray, level_in(base_color_slot));
     surface.sheen_color = reader.surface(hit, ray, level_in(sheen_color_slot)).sheen_color;
+    return surface;
+  });
+}
+
+// A normal map's level turns the lobes that the levels of the other textures weigh.
+TEST(LodBound, HoldsWhenANormalMapAndWhatItBendsArePickedTogether) {
+  scene::Scene s = tilted_cloth();
+  s.materials[0].normal_texture = add_noise(s, 3, 60, 200, 200);
+  s.materials[0].sheen.color_texture = add_noise(s, 4, 0, 255, 128);
+  s.materials[0].base_color_texture = add_noise(s, 5, 0, 255, 128);
+  hold_against_bound(s, [](const SurfaceReader& reader, const Hit& hit, const Ray& ray, const auto& level_in) {
+    Surface<double> surface = reader.surface(hit, ray, level_in(base_color_slot));
+    surface.normal = reader.surface(hit, ray, level_in(normal_slot)).normal;
+    surface.sheen_color = reader.surface(hit, ray, level_in(sheen_color_slot)).sheen_color;
+    return surface;
+  });
+}
+
+// Two normal maps, each at a level of its own.
+TEST(LodBound, HoldsWhenTheCoatsMapAndTheBasesArePickedTogether) {
+  scene::Scene s = tilted_cloth();
+  s.materials[0].normal_texture = add_noise(s, 6, 60, 200, 200);
+  s.materials[0].clearcoat.factor = 1.0;
+  s.materials[0].clearcoat.roughness_factor = 0.4;
+  s.materials[0].clearcoat.normal_texture = add_noise(s, 7, 60, 200, 200);
+  hold_against_bound(s, [](const SurfaceReader& reader, const Hit& hit, const Ray& ray, const auto& level_in) {
+    Surface<double> surface = reader.surface(hit, ray, level_in(normal_slot));
+    surface.coat_normal = reader.surface(hit, ray, level_in(clearcoat_normal_slot)).coat_normal;
     return surface;
   });
 }

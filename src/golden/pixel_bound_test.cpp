@@ -53,8 +53,8 @@ namespace sheen::golden {
 template <class Precision>
 struct AlbedoReader<number::test::Perturbed<Precision>> {
   using P = number::test::Perturbed<Precision>;
-  static P sheen(const albedo::Interpolant* albedo, const albedo::Curve*, const P& cosine, const P& roughness) {
-    return P((*albedo)(cosine.value(), roughness.value()));
+  static P sheen(const SheenAlbedo& albedo, const P& cosine, const P& roughness) {
+    return P((*albedo.interpolant)(cosine.value(), roughness.value()));
   }
   static bool is_smaller_for_light(const P&, const P&) { return false; }
   static brdf::LobeAlbedo<P> ggx(const albedo::GgxInterpolant&, const P&, const P&) { return {}; }
@@ -135,7 +135,10 @@ std::vector<double> shares(const scene::Scene& s, Settings settings, int tries) 
         continue;
       }
       const double step = bound.step(seen);
-      const Enclosed enclosed = bound.of(seen, ray, step);
+      BoundedSamples samples(bound);
+      samples.add(seen, ray, step);
+      samples.shade();
+      const Enclosed enclosed = samples.at(0);
       if (!std::isfinite(enclosed.deviation.x)) {
         continue;
       }

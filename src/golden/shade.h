@@ -20,11 +20,9 @@ struct Lighting {
   const PreparedLight* lights = nullptr;
   std::size_t light_count = 0;
   albedo::SheenModel sheen;
-  const albedo::Interpolant* albedo = nullptr;  ///< needed where a surface has sheen
+  SheenAlbedo albedo;
   TermFactors factors;
-  /// One surface under many lights: E at its roughness, and these, one a lane, instead of `lights`.
-  const albedo::Curve* curve = nullptr;
-  const DistantLights* distant = nullptr;
+  const DistantLights* distant = nullptr;       ///< of one surface, one a lane, instead of `lights`
   const albedo::GgxInterpolant* ggx = nullptr;  ///< of the physical model alone, which it makes the base follow
 };
 
@@ -180,7 +178,7 @@ class SheenLayer {
   }
 
  private:
-  Real albedo_at(const Real& cosine) const { return AlbedoReader<Real>::sheen(lighting_.albedo, lighting_.curve, cosine, roughness_); }
+  Real albedo_at(const Real& cosine) const { return AlbedoReader<Real>::sheen(lighting_.albedo, cosine, roughness_); }
 
   brdf::SheenLobe<Lobe> lobe_;
   const Lighting& lighting_;

@@ -50,7 +50,7 @@ TEST(Shade, SheenTermsMeetTheNumberComputedIndependently) {
   s.sheen_roughness = 0.5;
   const albedo::Interpolant e(albedo::Visibility::Charlie);
   const std::vector<PreparedLight> lights = one_light(l);
-  Lighting lighting{lights.data(), lights.size(), {}, &e, {}};
+  Lighting lighting{lights.data(), lights.size(), {}, {&e}, {}};
   std::vector<LightPart<double>> parts;
   shade(s, {true, false}, lighting, Keep{parts});
   ASSERT_EQ(parts.size(), 1u);
@@ -74,7 +74,7 @@ TEST(Shade, ALightAlongTheNormalIsFinite) {
     s.coat_alpha = 0.1;
     const std::vector<PreparedLight> lights = one_light(n);
     above_one += dot(s.normal, vec(-lights[0].axis)) > 1.0 ? 1 : 0;
-    EXPECT_TRUE(std::isfinite(shade(s, {true, true}, {lights.data(), lights.size(), {}, &e, {}}, NoListener{}).radiance.g)) << i;
+    EXPECT_TRUE(std::isfinite(shade(s, {true, true}, {lights.data(), lights.size(), {}, {&e}, {}}, NoListener{}).radiance.g)) << i;
   }
   EXPECT_GT(above_one, 0) << "the case was met";
 }
@@ -90,7 +90,7 @@ TEST(Shade, FactorsChangeTheTermTheyName) {
   const albedo::Interpolant e(albedo::Visibility::Charlie);
   const std::vector<PreparedLight> lights = one_light(glm::normalize(glm::dvec3(0.5, 0.2, 0.7)));
   const auto evaluate = [&](const TermFactors& factors, std::vector<LightPart<double>>& parts) {
-    return shade(s, {true, true}, {lights.data(), lights.size(), {}, &e, factors}, Keep{parts}).radiance;
+    return shade(s, {true, true}, {lights.data(), lights.size(), {}, {&e}, factors}, Keep{parts}).radiance;
   };
   std::vector<LightPart<double>> plain;
   const auto before = evaluate({}, plain);
@@ -140,7 +140,7 @@ TEST(Shade, SingleLookupDiffersOnlyWhereCharlieTurns) {
     s.sheen_color = {1.0, 1.0, 1.0};
     s.sheen_roughness = 0.3;
     const std::vector<PreparedLight> lights = one_light({0.0, std::sqrt(1.0 - n_dot_l * n_dot_l), n_dot_l});
-    return shade(s, {true, false}, {lights.data(), lights.size(), {}, &e, {}}, NoListener{}).lookup.r;
+    return shade(s, {true, false}, {lights.data(), lights.size(), {}, {&e}, {}}, NoListener{}).lookup.r;
   };
   EXPECT_EQ(difference(0.3, 0.7), 0.0);
   EXPECT_EQ(difference(0.7, 0.01), 0.0);
@@ -184,7 +184,7 @@ TEST(Shade, BatchesAgreeWithOneAtATime) {
   std::iota(order.rbegin(), order.rend(), 0u);
   for (const auto visibility : {albedo::Visibility::Charlie, albedo::Visibility::Ashikhmin, albedo::Visibility::Refined}) {
     const albedo::Interpolant e(visibility);
-    const Lighting lighting{prepared.data(), prepared.size(), {visibility, albedo::AlbedoScaling::Full}, &e, {}};
+    const Lighting lighting{prepared.data(), prepared.size(), {visibility, albedo::AlbedoScaling::Full}, {&e}, {}};
     std::vector<Shaded<double>> one(surfaces.size());
     std::vector<Shaded<double>> four(surfaces.size());
     shade_all_scalar(surfaces.data(), order.data(), order.size(), {true, true}, lighting, one.data());

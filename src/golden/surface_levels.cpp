@@ -9,12 +9,17 @@
 
 namespace sheen::golden {
 
-std::vector<double> levels_within(const LodInterval& range) {
+namespace {
+
+// Both ends and multiples of `spacing`.
+std::vector<double> spaced(const LodInterval& range, double spacing) {
   std::vector<double> levels{range.low};
-  for (double quarter = std::floor(4.0 * range.low) + 1.0; quarter < 4.0 * range.high; quarter += 1.0) {
-    levels.push_back(quarter / 4.0);
+  for (double i = std::floor(range.low / spacing) + 1.0; i < range.high / spacing; i += 1.0) {
+    levels.push_back(i * spacing);
   }
-  levels.push_back(range.high);
+  if (range.high > range.low) {
+    levels.push_back(range.high);
+  }
   // Where magnification ends, sample() may jump.
   for (const double threshold : {0.0, 0.5}) {
     const double beyond = std::nextafter(threshold, 1.0);
@@ -23,6 +28,16 @@ std::vector<double> levels_within(const LodInterval& range) {
     }
   }
   return levels;
+}
+
+}  // namespace
+
+std::vector<double> corners_within(const LodInterval& range) {
+  return spaced(range, 1.0);
+}
+
+std::vector<double> levels_within(const LodInterval& range) {
+  return spaced(range, 0.25);
 }
 
 // The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes.
@@ -51,15 +66,15 @@ std::optional<LodInterval> SurfaceReader::lod_interval(const Hit& hit, const Ray
 
 std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const {
   const std::optional<LodInterval> range = lod_interval(hit, ray, slot);
-  if (!range) {
+  if (!range || range->low == range->high) {
     return {};
   }
-  std::vector<double> levels = levels_within(*range);
   const Material& m = materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)];
   const Slot& s = slot_of(m, slot);
   if (&s != &m.normal && &s != &m.clearcoat_normal) {
-    return levels;
+    return levels_within(*range);
   }
+  const std::vector<double> levels = corners_within(*range);
   const auto normal_at = [&](double level) { return mapped_normal(hit, ray, {level, slot}); };
   const glm::dvec3 view = rays_.toward_camera(ray);
   std::vector<double> finer{levels.front()};
@@ -81,7 +96,7 @@ std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray,
     before = after;
   };
   constexpr double largest_angle = 0.01;
-  constexpr double most = 64.0;  // between two quarters: half a turn would need 5 times as many
+  constexpr double most = 256.0;  // between two whole levels: half a turn would need more
   for (std::size_t i = 1; i < levels.size(); ++i) {
     const glm::dvec3 after = normal_at(levels[i]);
     const double angle = std::atan2(glm::length(glm::cross(before, after)), glm::dot(before, after));

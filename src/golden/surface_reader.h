@@ -31,8 +31,11 @@ struct LodInterval {
   double low, high;
 };
 
-/// What a range of levels may show: both its ends, every whole level in it, where what a texture gives has a corner, and three between each
-/// two, since shading does not run straight.
+/// Between which what a texture gives runs straight: both ends of a range, every whole level in it, and where magnification ends. One, if
+/// the range is no more.
+std::vector<double> corners_within(const LodInterval& range);
+
+/// These and three more between each two whole levels, since shading does not run straight.
 std::vector<double> levels_within(const LodInterval& range);
 
 /// Reads materials: everything between a hit and its shading.
@@ -66,16 +69,19 @@ class SurfaceReader {
 
   /// Textures a material may have; base colour is the first.
   static constexpr std::size_t slot_count = 12;
-  static constexpr bool is_normal_map(std::size_t slot) { return slot == 2 || slot == 10; }
+  static constexpr std::size_t normal_slot = 2, clearcoat_normal_slot = 10;
 
   /// From the least level allowed for one texture of the surface at a hit to the most; none where it has no mipmaps or is not there.
   std::optional<LodInterval> lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const;
 
-  /// levels_within() for a texture with mipmaps, or whose two filters differ.
-  std::vector<double> levels(const Slot& slot, const Hit& hit, const Ray& ray) const { return levels_within(lod_interval(slot, hit, ray)); }
+  /// corners_within() for a texture with mipmaps, or whose two filters differ.
+  std::vector<double> corners(const Slot& slot, const Hit& hit, const Ray& ray) const {
+    return corners_within(lod_interval(slot, hit, ray));
+  }
 
-  /// levels_within() for one texture at a hit; of a normal map as many more as leave no more than a hundredth of a radian between the
-  /// normals of two neighbours: a lobe may rise and fall again while a normal swings past it. Empty where the level changes nothing.
+  /// levels_within() for one texture at a hit; of a normal map corners_within() and as many more as leave no more than a hundredth of a
+  /// radian between the normals of two neighbours: a lobe may rise and fall again while a normal swings past it. Empty where no other level
+  /// than the ideal one is allowed.
   std::vector<double> levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const;
 
   TextureReach texture_reach(const Hit& hit, const Ray& ray) const;

@@ -71,6 +71,20 @@ void extremes(const glm::dvec2 (&texels)[9], int along, int across, glm::dvec2& 
 
 }  // namespace
 
+const TextureLevels::Extent& TextureLevels::extent(std::size_t level) const {
+  Lazy& lazy = extents_[level];
+  std::call_once(lazy.found, [&] {
+    glm::vec4 least = levels_[level].rgba.front();
+    glm::vec4 most = least;
+    for (const glm::vec4& texel : levels_[level].rgba) {
+      least = glm::min(least, texel);
+      most = glm::max(most, texel);
+    }
+    lazy.extent = {glm::dvec4(least), glm::dvec4(most)};
+  });
+  return lazy.extent;
+}
+
 Texture TextureStore::get(int texture, scene::ColorSpace space) {
   const std::string element = "textures[" + std::to_string(texture) + "]";
   if (texture < 0 || texture >= static_cast<int>(scene_.textures.size())) {
@@ -93,23 +107,44 @@ Texture TextureStore::get(int texture, scene::ColorSpace space) {
     } else {
       chain.push_back(std::move(level0));
     }
-    levels = std::make_shared<const std::vector<scene::Texels>>(std::move(chain));
+    levels = std::make_shared<const TextureLevels>(std::move(chain));
     has_mips = mips;
   }
   return {levels, source.sampler};
 }
 
-glm::dvec4 sample(const Texture& texture, glm::dvec2 uv, double lambda) {
+namespace {
+
+// Section 3.8.10.3: where a smooth magnification meets an unfiltered mipmapped minification, the switch lies half a level higher.
+double magnified_up_to(const scene::Sampler& s) {
   using scene::Filter;
-  using scene::MipFilter;
-  const scene::Sampler& s = texture.sampler;
-  const std::vector<scene::Texels>& levels = *texture.levels;
+  return s.mag == Filter::Linear && s.min == Filter::Nearest && s.mip != scene::MipFilter::None ? 0.5 : 0.0;
+}
+
+}  // namespace
+
+std::optional<Mixture> mixture(const Texture& texture, double lambda) {
+  const double first = std::floor(lambda);
+  const bool mixes = texture.sampler.mip == scene::MipFilter::Linear && lambda > magnified_up_to(texture.sampler) &&
+                     lambda < static_cast<double>(texture.levels->size() - 1);
+  return mixes ? std::optional(Mixture{first, lambda - first}) : std::nullopt;
+}
+
+glm::dvec4 sample_minified(const Texture& texture, glm::dvec2 uv, double level) {
   if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
     uv = glm::dvec2(0.0);
   }
-  // Section 3.8.10.3: where a smooth magnification meets an unfiltered mipmapped minification, the switch lies half a level higher.
-  const double threshold = s.mag == Filter::Linear && s.min == Filter::Nearest && s.mip != MipFilter::None ? 0.5 : 0.0;
-  if (!(lambda > threshold)) {
+  return sample_level((*texture.levels)[static_cast<std::size_t>(level)], texture.sampler, texture.sampler.min, uv);
+}
+
+glm::dvec4 sample(const Texture& texture, glm::dvec2 uv, double lambda) {
+  using scene::MipFilter;
+  const scene::Sampler& s = texture.sampler;
+  const TextureLevels& levels = *texture.levels;
+  if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+    uv = glm::dvec2(0.0);
+  }
+  if (!(lambda > magnified_up_to(s))) {
     return sample_level(levels.front(), s, s.mag, uv);
   }
   if (s.mip == MipFilter::None) {
@@ -121,12 +156,12 @@ glm::dvec4 sample(const Texture& texture, glm::dvec2 uv, double lambda) {
   if (s.mip == MipFilter::Nearest) {
     return sample_level(level(std::ceil(std::min(lambda, last) + 0.5) - 1.0), s, s.min, uv);
   }
-  if (lambda >= last) {
+  const std::optional<Mixture> mixed = mixture(texture, lambda);
+  if (!mixed) {
     return sample_level(level(last), s, s.min, uv);
   }
-  const double first = std::floor(lambda);
-  const double f = lambda - first;
-  return sample_level(level(first), s, s.min, uv) * (1.0 - f) + sample_level(level(first + 1.0), s, s.min, uv) * f;
+  return sample_minified(texture, uv, mixed->first) * (1.0 - mixed->share) +
+         sample_minified(texture, uv, mixed->first + 1.0) * mixed->share;
 }
 
 double ideal_lod(glm::dvec2 here, glm::dvec2 right, glm::dvec2 below) {

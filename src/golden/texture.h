@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,9 +16,32 @@
 
 namespace sheen::golden {
 
+/// Mipmap levels, and the least and the most that each channel of a level comes to, found when it is asked for.
+class TextureLevels {
+ public:
+  struct Extent {
+    glm::dvec4 least, most;
+  };
+
+  explicit TextureLevels(std::vector<scene::Texels> levels) : levels_(std::move(levels)), extents_(levels_.size()) {}
+  const scene::Texels& operator[](std::size_t level) const { return levels_[level]; }
+  const scene::Texels& front() const { return levels_.front(); }
+  std::size_t size() const { return levels_.size(); }
+  /// Safe to call from many threads.
+  const Extent& extent(std::size_t level) const;
+
+ private:
+  struct Lazy {
+    std::once_flag found;
+    Extent extent;
+  };
+  std::vector<scene::Texels> levels_;
+  mutable std::vector<Lazy> extents_;
+};
+
 /// A decoded picture with the sampler that reads it.
 struct Texture {
-  std::shared_ptr<const std::vector<scene::Texels>> levels;  ///< level 0 alone where the sampler has no mipmaps
+  std::shared_ptr<const TextureLevels> levels;  ///< level 0 alone where the sampler has no mipmaps
   scene::Sampler sampler;
 
   /// Whether the level of detail changes what is read: with mipmaps, or where the two filters differ.
@@ -32,7 +58,7 @@ class TextureStore {
   Texture get(int texture, scene::ColorSpace space);
 
  private:
-  using Levels = std::shared_ptr<const std::vector<scene::Texels>>;
+  using Levels = std::shared_ptr<const TextureLevels>;
   const scene::Scene& scene_;
   std::map<std::pair<int, scene::ColorSpace>, std::pair<Levels, bool>> decoded_;  // and whether with mipmaps
 };
@@ -42,6 +68,16 @@ class TextureStore {
 /// @param uv      texture coordinates, v = 0 at the picture's top row
 /// @param lambda  level of detail, log2 of texels a pixel
 glm::dvec4 sample(const Texture& texture, glm::dvec2 uv, double lambda);
+
+/// Of a texture that is minified with linear filtering between mipmaps: the finer of the two levels that lambda mixes, and the other's
+/// share. None elsewhere, where one level is read.
+struct Mixture {
+  double first, share;
+};
+std::optional<Mixture> mixture(const Texture& texture, double lambda);
+
+/// One level by the minification filter.
+glm::dvec4 sample_minified(const Texture& texture, glm::dvec2 uv, double level);
 
 /// Level of detail, log2 of the texels a pixel spans: what the specification's ideal formula gives, and the least and the most that
 /// OpenGL ES 3.0.6, section 3.8.10.1, allows: any f with max(m_u, m_v) <= f <= m_u + m_v, from differences to either neighbour.

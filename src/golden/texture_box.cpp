@@ -19,13 +19,13 @@ constexpr double epsilon = number::epsilon<number::Highp>;
 constexpr double filter_roundings = 29;
 /// Of a coordinate in texels: the product with the size, and the two differences that make a weight of it.
 constexpr double coordinate_roundings = 3;
-/// A box over more texels than this is no longer looked at edge by edge: such a texture is left out of verdicts.
-constexpr double most_edges = 32;
+/// A box of more texels than this along an axis is no longer looked at edge by edge.
+constexpr double most_texels = 16;
 
 // Coordinates along one axis to look at: both ends, and the edges and bends between them, which lie at halves of a texel.
 void add_places(double from, double to, double texels, std::vector<double>& places) {
   const double first = std::floor(2.0 * from * texels) + 1.0;
-  const double last = std::min(std::ceil(2.0 * to * texels) - 1.0, first + most_edges);
+  const double last = std::ceil(2.0 * to * texels) - 1.0;
   for (double half = first; half <= last; half += 1.0) {
     places.push_back(0.5 * half / texels);
   }
@@ -33,29 +33,84 @@ void add_places(double from, double to, double texels, std::vector<double>& plac
 
 }  // namespace
 
-Spread sample_box(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach, double lambda) {
+TextureBox::TextureBox(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach)
+    : texture_(texture), uv_(uv), off_(reach + coordinate_roundings * epsilon * (glm::abs(uv) + glm::dvec2(1.0) / texture.size())) {}
+
+bool TextureBox::is_wide(double level) const {
+  const scene::Texels& texels = (*texture_.levels)[static_cast<std::size_t>(level)];
+  return !(2.0 * off_.x * texels.width <= most_texels && 2.0 * off_.y * texels.height <= most_texels);
+}
+
+// Whatever the coordinates: of the two levels that may be read, everything.
+Spread TextureBox::over_levels(double lambda) const {
+  const auto last = static_cast<double>(texture_.levels->size() - 1);
+  const double finer = std::clamp(std::floor(lambda), 0.0, last);
+  const TextureLevels::Extent& a = texture_.levels->extent(static_cast<std::size_t>(finer));
+  const TextureLevels::Extent& b = texture_.levels->extent(static_cast<std::size_t>(std::min(finer + 1.0, last)));
   Spread out;
-  out.value = sample(texture, uv, lambda);
-  const glm::dvec2 off = reach + coordinate_roundings * epsilon * (glm::abs(uv) + glm::dvec2(1.0) / texture.size());
-  // The two levels that may be read; of a texture without mipmaps, level 0.
-  const auto last = static_cast<double>(texture.levels->size() - 1);
-  const double first_level = std::clamp(std::floor(lambda), 0.0, last);
-  std::vector<double> x{uv.x - off.x, uv.x + off.x};
-  std::vector<double> y{uv.y - off.y, uv.y + off.y};
+  out.value = sample(texture_, uv_, lambda);
+  out.radius = glm::max(glm::max(a.most, b.most) - out.value, out.value - glm::min(a.least, b.least));
+  out.radius += filter_roundings * epsilon * (glm::abs(out.value) + out.radius);
+  return out;
+}
+
+// For a level and the next coarser one.
+std::vector<glm::dvec2> TextureBox::places(double first_level) const {
+  const auto last = static_cast<double>(texture_.levels->size() - 1);
+  std::vector<double> x{uv_.x - off_.x, uv_.x + off_.x};
+  std::vector<double> y{uv_.y - off_.y, uv_.y + off_.y};
   for (const double level : {first_level, std::min(first_level + 1.0, last)}) {
-    const scene::Texels& texels = (*texture.levels)[static_cast<std::size_t>(level)];
-    add_places(uv.x - off.x, uv.x + off.x, texels.width, x);
-    add_places(uv.y - off.y, uv.y + off.y, texels.height, y);
+    const scene::Texels& texels = (*texture_.levels)[static_cast<std::size_t>(level)];
+    add_places(x[0], x[1], texels.width, x);
+    add_places(y[0], y[1], texels.height, y);
     if (last == 0.0) {
       break;
     }
   }
-  glm::dvec4 largest = glm::abs(out.value);
+  std::vector<glm::dvec2> all{uv_};
   for (const double v : y) {
     for (const double u : x) {
-      const glm::dvec4 there = sample(texture, {u, v}, lambda);
-      out.radius = glm::max(out.radius, glm::abs(there - out.value));
-      largest = glm::max(largest, glm::abs(there));
+      all.emplace_back(u, v);
+    }
+  }
+  return all;
+}
+
+const TextureBox::Pair& TextureBox::pair(double first) {
+  for (const Pair& known : pairs_) {
+    if (known.first == first) {
+      return known;
+    }
+  }
+  Pair& made = pairs_.emplace_back();
+  made.first = first;
+  for (const glm::dvec2& at : places(first)) {
+    made.values.push_back({sample_minified(texture_, at, first), sample_minified(texture_, at, first + 1.0)});
+  }
+  return made;
+}
+
+Spread TextureBox::operator()(double lambda) {
+  if (is_wide(std::clamp(std::floor(lambda), 0.0, static_cast<double>(texture_.levels->size() - 1)))) {
+    return over_levels(lambda);
+  }
+  Spread out;
+  glm::dvec4 largest(0.0);
+  bool first = true;
+  const auto include = [&](const glm::dvec4& there) {
+    out.value = first ? there : out.value;
+    out.radius = glm::max(out.radius, glm::abs(there - out.value));
+    largest = glm::max(largest, glm::abs(there));
+    first = false;
+  };
+  if (const std::optional<Mixture> mixed = mixture(texture_, lambda)) {
+    for (const auto& [finer, coarser] : pair(mixed->first).values) {
+      include(finer * (1.0 - mixed->share) + coarser * mixed->share);
+    }
+  } else {
+    const auto last = static_cast<double>(texture_.levels->size() - 1);
+    for (const glm::dvec2& at : places(std::clamp(std::floor(lambda), 0.0, last))) {
+      include(sample(texture_, at, lambda));
     }
   }
   out.radius += filter_roundings * epsilon * largest;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
@@ -13,9 +16,32 @@ struct Spread {
   glm::dvec4 radius{0.0};
 };
 
-/// What a texture may give at coordinates that lie within `reach` of uv along either axis, at one level of detail: at the corners of that
-/// box and wherever in it the filter has an edge (nearest) or a bend (linear), between which it is bilinear and so has no extremes; with a
-/// shader's roundings in highp of the filter's arithmetic.
-Spread sample_box(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach, double lambda);
+/// What a texture may give at coordinates that lie within `reach` of uv along either axis: at the corners of that box and wherever in it
+/// the filter has an edge (nearest) or a bend (linear), between which it is bilinear and so has no extremes; of a box over many texels, all
+/// that the level holds; with a shader's roundings in highp of the filter's arithmetic. Each mipmap level is read once, however often it is
+/// asked for.
+class TextureBox {
+ public:
+  /// The texture must outlive this.
+  TextureBox(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach);
+
+  /// At one level of detail.
+  Spread operator()(double lambda);
+
+ private:
+  // Two neighbouring levels at the places to look at, uv first.
+  struct Pair {
+    double first = 0;
+    std::vector<std::array<glm::dvec4, 2>> values;
+  };
+  bool is_wide(double level) const;
+  std::vector<glm::dvec2> places(double first_level) const;
+  const Pair& pair(double first);
+  Spread over_levels(double lambda) const;
+
+  const Texture& texture_;
+  glm::dvec2 uv_, off_;
+  std::vector<Pair> pairs_;
+};
 
 }  // namespace sheen::golden

@@ -33,7 +33,7 @@ TEST(TextureBox, HoldsEveryCoordinateInsideAndReachesWhatTheyReach) {
         for (int i = 0; i < 20; ++i) {
           const glm::dvec2 uv(2.0 * within(random), 2.0 * within(random));
           const double lambda = 2.0 * within(random);
-          const Spread spread = sample_box(texture, uv, {reach, 0.5 * reach}, lambda);
+          const Spread spread = TextureBox(texture, uv, {reach, 0.5 * reach})(lambda);
           EXPECT_EQ(spread.value, sample(texture, uv, lambda));
           glm::dvec4 farthest(0.0);
           for (int k = 0; k < 400; ++k) {
@@ -59,8 +59,19 @@ TEST(TextureBox, SeesATexelThatTheBoxEncloses) {
                     {scene::Wrap::Repeat, scene::Wrap::Repeat, scene::Filter::Linear, scene::Filter::Linear, scene::MipFilter::None});
   const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Linear);
   // From one dark texel's middle to the other side's: the bright one lies between.
-  EXPECT_NEAR(sample_box(texture, {4.1 / 8, 0.5}, {1.0 / 8, 0.1}, -1.0).value.x, 0.6, 1e-9);
-  EXPECT_NEAR(sample_box(texture, {3.5 / 8, 0.5}, {1.2 / 8, 0.1}, -1.0).radius.x, 1.0, 1e-5);
+  EXPECT_NEAR(TextureBox(texture, {4.1 / 8, 0.5}, {1.0 / 8, 0.1})(-1.0).value.x, 0.6, 1e-9);
+  EXPECT_NEAR(TextureBox(texture, {3.5 / 8, 0.5}, {1.2 / 8, 0.1})(-1.0).radius.x, 1.0, 1e-5);
+}
+
+TEST(TextureBox, HoldsAllOfATextureWhoseTexelsAreTooMany) {
+  scene::Scene s;
+  test::add_texture(s, test::picture(512, 4, [](int x, int) { return glm::ivec4(x == 300 ? 255 : 51, 102, 102, 255); }),
+                    {scene::Wrap::Repeat, scene::Wrap::Repeat, scene::Filter::Nearest, scene::Filter::Nearest, scene::MipFilter::None});
+  const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Linear);
+  const Spread spread = TextureBox(texture, {0.5, 0.5}, {20.0 / 512, 0.1})(3.0);
+  EXPECT_EQ(spread.value, sample(texture, {0.5, 0.5}, 3.0));
+  EXPECT_NEAR(spread.radius.x, 0.8, 1e-5);
+  EXPECT_NEAR(spread.radius.y, 0.0, 1e-5);
 }
 
 }  // namespace

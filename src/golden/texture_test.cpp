@@ -16,22 +16,22 @@ using scene::Wrap;
 
 // Levels of one colour each: level i is i everywhere but for level 0, which has `row` as its only row.
 Texture strip(const std::vector<float>& row, scene::Sampler sampler) {
-  auto levels = std::make_shared<std::vector<scene::Texels>>();
+  std::vector<scene::Texels> levels;
   scene::Texels first;
   first.width = static_cast<int>(row.size());
   first.height = 1;
   for (const float v : row) {
     first.rgba.emplace_back(v);
   }
-  levels->push_back(first);
+  levels.push_back(first);
   for (int i = 1; (first.width >> i) > 0; ++i) {
     scene::Texels level;
     level.width = first.width >> i;
     level.height = 1;
     level.rgba.assign(static_cast<std::size_t>(level.width), glm::vec4(static_cast<float>(i)));
-    levels->push_back(level);
+    levels.push_back(level);
   }
-  return {levels, sampler};
+  return {std::make_shared<const TextureLevels>(std::move(levels)), sampler};
 }
 
 double at(const Texture& t, double u, double lambda = -10.0) {
@@ -39,12 +39,11 @@ double at(const Texture& t, double u, double lambda = -10.0) {
 }
 
 TEST(Texture, BilinearWeightsTheFourTexelsAround) {
-  auto levels = std::make_shared<std::vector<scene::Texels>>(1);
-  (*levels)[0] = {2, 2, {glm::vec4(1), glm::vec4(2), glm::vec4(4), glm::vec4(8)}};
+  const scene::Texels texels{2, 2, {glm::vec4(1), glm::vec4(2), glm::vec4(4), glm::vec4(8)}};
   scene::Sampler s;
   s.mip = MipFilter::None;
   s.wrap_s = s.wrap_t = Wrap::ClampToEdge;
-  const Texture t{levels, s};
+  const Texture t{std::make_shared<const TextureLevels>(std::vector<scene::Texels>{texels}), s};
   EXPECT_DOUBLE_EQ(sample(t, {0.25, 0.25}, -1.0).x, 1.0);
   EXPECT_DOUBLE_EQ(sample(t, {0.75, 0.25}, -1.0).x, 2.0);
   EXPECT_DOUBLE_EQ(sample(t, {0.5, 0.5}, -1.0).x, 3.75);

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
 
+#include "golden/by_material.h"
 #include "golden/shade_all.h"
 #include "golden/uniform_light.h"
 
@@ -20,6 +20,12 @@ glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
 }
 
 }  // namespace
+
+Tile::Tile(const Frame& frame, const PixelBound* bound) : frame_(frame), bound_(bound) {
+  if (bound != nullptr) {
+    bounded_.emplace(*bound);
+  }
+}
 
 void Tile::add_layer(const Hit& hit, const Ray& ray, LodChoice lod) {
   const Placed& placed = frame_.geometry.placed(hit.triangle);
@@ -59,17 +65,14 @@ void Tile::add_sample_with_tie(Seen& seen, const Ray& ray) {
   seen.nearest = nearest;
 }
 
-// What is seen at the levels of detail that OpenGL ES allows each texture of each layer.
+// What is seen at the levels of detail that OpenGL ES allows each texture of each layer, for the light of an environment: bounded surfaces
+// hold what punctual lights bring.
 void Tile::add_levels(const Seen& seen, const Ray& ray) {
   const auto add = [&](const Hit& hit) {
     if (!frame_.reader.needs_lod(frame_.geometry.placed(hit.triangle).material_index)) {
       return;
     }
     for (std::size_t slot = 0; slot < SurfaceReader::slot_count; ++slot) {
-      // Of textures that bend no normal the bounded surface holds every level; but not of an environment's light.
-      if (!has_environment() && !SurfaceReader::is_normal_map(slot)) {
-        continue;
-      }
       const std::vector<double> levels = frame_.reader.levels_to_try(hit, ray, slot);
       if (levels.empty()) {
         continue;
@@ -112,16 +115,16 @@ void Tile::add_carried_on() {
 
 // What is seen where the rounding of texture coordinates leads, if that is farther than the corners of the step. False where coordinates
 // may lie so far off that corners show but some of the texels between them: a texture without mipmaps seen from far.
-bool Tile::add_nudged(bool samples) {
+bool Tile::add_nudged() {
   const Look& centre = looks_[0];
   const auto add = [&](const Hit& hit) {
     const TextureReach reach = frame_.reader.texture_reach(hit, centre.ray);
-    if (samples && reach.beyond_the_step) {
+    if (reach.beyond_the_step) {
       for (const glm::dvec2& nudge : nudges) {
         add_sample(centre.seen, centre.ray, {std::nullopt, 0, nudge}, &hit);
       }
     }
-    return reach.texels <= (samples ? most_texels_of_corners : most_texels);
+    return reach.texels <= most_texels;
   };
   bool sampled = !centre.seen.nearest || add(*centre.seen.nearest);
   for (const Hit& hit : centre.seen.blended) {
@@ -138,26 +141,30 @@ Tile::Plan Tile::plan(int x, int y) {
   const auto groups = static_cast<std::uint32_t>(lod_group_ends_.size());
   const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(frame_.settings.view.width) + static_cast<std::uint64_t>(x);
   const Exclusion tied = centre.seen.tie ? Exclusion::Surface : Exclusion::None;
-  Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, tied, {}};
+  Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, tied, 0, 0};
   if (!bounds) {
     add_sample(centre.seen, centre.ray);
     plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
     return plan;
   }
-  plan.enclosed = enclose(look_around(plan));
+  plan.first_bound = bounded_->count();
+  const double step = look_around(plan);
+  enclose(step);
+  plan.last_bound = bounded_->count();
+  bool sampled = true;
   if (has_environment()) {
     add_sample_with_tie(centre.seen, centre.ray);
     add_shifted();
     add_carried_on();
+    sampled = add_nudged();
   } else {
     add_sample(centre.seen, centre.ray);
   }
-  const bool sampled = add_nudged(has_environment());
   plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
   if (plan.excluded == Exclusion::None) {
-    plan.excluded = mask_uncertain() ? Exclusion::Mask : sampled ? Exclusion::None : Exclusion::Texels;
+    plan.excluded = mask_uncertain(step) ? Exclusion::Mask : sampled ? Exclusion::None : Exclusion::Texels;
   }
-  for (std::size_t k = 0; k < looks_.size(); ++k) {
+  for (std::size_t k = 0; k < looks_.size() && has_environment(); ++k) {
     if (!seen_before(k)) {
       add_levels(extended(looks_[k].seen, centre.ray), centre.ray);
     }
@@ -168,22 +175,13 @@ Tile::Plan Tile::plan(int x, int y) {
 
 void Tile::shade_surfaces() {
   shaded_.resize(surfaces_.size());
-  std::vector<std::uint32_t> order(surfaces_.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return materials_[a] < materials_[b]; });
   const Lighting lighting = frame_.lighting();
-  for (std::size_t begin = 0; begin < order.size();) {
-    std::size_t end = begin;
-    const int material = materials_[order[begin]];
-    while (end < order.size() && materials_[order[end]] == material) {
-      ++end;
-    }
-    shade_all(surfaces_.data(), order.data() + begin, end - begin, frame_.reader.layers(material), lighting, shaded_.data());
+  by_material(materials_, [&](const std::uint32_t* order, std::size_t count, int material) {
+    shade_all(surfaces_.data(), order, count, frame_.reader.layers(material), lighting, shaded_.data());
     if (frame_.settings.environment != nullptr && !frame_.environment) {
-      add_uniform_light(order.data() + begin, end - begin, lighting);
+      add_uniform_light(order, count, lighting);
     }
-    begin = end;
-  }
+  });
 }
 
 void Tile::add_uniform_light(const std::uint32_t* order, std::size_t count, const Lighting& lighting) {
@@ -251,7 +249,7 @@ Pixel Tile::finish(const Plan& plan) const {
   pixel.radiance = full.radiance;
   pixel.coverage = centre.coverage;
   pixel.standard_error = full.standard_error;
-  const glm::dvec4 open = plan.enclosed.deviation + shift + lod;
+  const glm::dvec4 open = (bounded_ ? enclosed(plan).deviation : glm::dvec4(0.0)) + shift + lod;
   pixel.bound = glm::dvec3(open) + centre.lookup + standard_errors * full.standard_error;
   pixel.coverage_bound = shows_background() ? 0.0 : open.w;
   pixel.excluded = plan.excluded;
@@ -269,6 +267,9 @@ std::vector<Pixel> Tile::render(int x0, int y0, int x1, int y1) {
   layers_.clear();
   samples_.clear();
   lod_group_ends_.clear();
+  if (bounded_) {
+    bounded_->clear();
+  }
   std::vector<Plan> plans;
   plans.reserve(static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(y1 - y0));
   for (int y = y0; y < y1; ++y) {
@@ -277,6 +278,9 @@ std::vector<Pixel> Tile::render(int x0, int y0, int x1, int y1) {
     }
   }
   shade_surfaces();
+  if (bounded_) {
+    bounded_->shade();
+  }
   if (frame_.environment) {
     add_image_light(plans);
   }

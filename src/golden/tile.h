@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "golden/environment_shade.h"
@@ -17,7 +18,7 @@ enum class Exclusion {
   None = 0,
   Surface = 1,  ///< another surface, or none, within the step
   Mask = 2,     ///< an alpha mask that a moved sample or another level of detail decides otherwise
-  Texels = 3,   ///< a texture without mipmaps whose texel a moved sample may choose freely
+  Texels = 3,   ///< under an environment, a texture without mipmaps whose texel a moved sample may choose freely
   Rules = 4,    ///< the rules of GLSL ES promise nothing for an operation there
 };
 
@@ -32,10 +33,9 @@ struct Pixel {
   bool mirrored = false;
 };
 
-/// Texels of a texture without mipmaps by which a driver's choice may be off for the bound to hold all that it may find: sample_box() looks
-/// at every edge of a box of 16, and under an environment, and at masks, corners alone are looked at, which must see all texels.
-inline constexpr double most_texels = 8.0;
-inline constexpr double most_texels_of_corners = 0.5;
+/// Under an environment: texels of a texture without mipmaps by which a driver's choice may be off, for the corners of the step, which
+/// alone are looked at there, to see all that it may find.
+inline constexpr double most_texels = 0.5;
 /// Of texture coordinates, as LodChoice has them.
 inline const std::array<glm::dvec2, 4> nudges{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
 
@@ -46,7 +46,7 @@ inline constexpr double standard_errors = 5.0;
 class Tile {
  public:
   /// @param bound  needed if the frame's settings ask for bounds
-  Tile(const Frame& frame, const PixelBound* bound) : frame_(frame), bound_(bound) {}
+  Tile(const Frame& frame, const PixelBound* bound);
 
   /// The pixels [x0, x1) x [y0, y1), row by row.
   std::vector<Pixel> render(int x0, int y0, int x1, int y1);
@@ -64,7 +64,7 @@ class Tile {
     std::uint64_t pixel;
     std::uint32_t centre, shifted_end, first_group, last_group;
     Exclusion excluded;
-    Enclosed enclosed;  // with bounds: light but an environment's, and coverage
+    std::size_t first_bound, last_bound;  // with bounds, of bounded_: light but an environment's, and coverage
   };
   struct Composed {
     glm::dvec3 radiance{0.0}, lookup{0.0}, standard_error{0.0};
@@ -75,12 +75,13 @@ class Tile {
   Plan plan(int x, int y);
   double look_around(Plan& plan);
   void look(double step, Plan& plan);
-  Enclosed enclose(double step) const;
+  void enclose(double step);
+  Enclosed enclosed(const Plan& plan) const;
   void add_shifted();
   void add_carried_on();
-  bool add_nudged(bool samples);
+  bool add_nudged();
   bool seen_before(std::size_t look) const;
-  bool mask_uncertain() const;
+  bool mask_uncertain(double step) const;
   void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {}, const Hit* varied = nullptr);
   void add_sample_with_tie(Seen& seen, const Ray& ray);
   void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
@@ -107,6 +108,7 @@ class Tile {
 
   const Frame& frame_;
   const PixelBound* bound_;
+  std::optional<BoundedSamples> bounded_;
   CurveCache curves_;
   std::array<Look, 5> looks_;
   std::vector<Surface<double>> surfaces_;

@@ -82,24 +82,27 @@ void Tile::look(double step, Plan& plan) {
 }
 
 // A driver whose grid moves an edge past a sample shades that sample with the triangles of the other side, carried on beyond the edge: with
-// all that any of the looks meets, and the other of two surfaces at one depth.
-Enclosed Tile::enclose(double step) const {
+// all that any of the looks meets, and the other of two surfaces at one depth. The centre's own are the first.
+void Tile::enclose(double step) {
   const Look& centre = looks_[0];
-  Enclosed all = bound_->of(centre.seen, centre.ray, step);
-  const auto include = [&](const Seen& seen) {
-    const Enclosed other = bound_->of(extended(seen, centre.ray), centre.ray, step);
-    all.deviation = glm::max(all.deviation, glm::abs(other.value - all.value) + other.deviation);
-  };
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     const Seen& seen = looks_[k].seen;
-    if (k > 0 && !seen_before(k)) {
-      include(seen);
+    if (!seen_before(k)) {
+      bounded_->add(k == 0 ? seen : extended(seen, centre.ray), centre.ray, step);
     }
     if (seen.tie) {
       Seen tied = seen;
       tied.nearest = seen.tie;
-      include(tied);
+      bounded_->add(extended(tied, centre.ray), centre.ray, step);
     }
+  }
+}
+
+Enclosed Tile::enclosed(const Plan& plan) const {
+  Enclosed all = bounded_->at(plan.first_bound);
+  for (std::size_t i = plan.first_bound + 1; i < plan.last_bound; ++i) {
+    const Enclosed other = bounded_->at(i);
+    all.deviation = glm::max(all.deviation, glm::abs(other.value - all.value) + other.deviation);
   }
   return all;
 }
@@ -110,10 +113,9 @@ bool Tile::seen_before(std::size_t look) const {
   return std::any_of(looks_.begin(), last, [&](const Look& earlier) { return earlier.seen.same_triangles(looks_[look].seen); });
 }
 
-// Whether a MASK surface in front may be kept or discarded: within the step, its triangle carried on, or by the freedom in the level of
-// detail.
-bool Tile::mask_uncertain() const {
-  constexpr std::size_t base_color = 0;
+// Whether a MASK surface in front, or its triangle carried on, may be kept or discarded.
+bool Tile::mask_uncertain(double step) const {
+  const Ray& ray = looks_[0].ray;
   std::vector<std::uint32_t> judged;
   for (const Look& met : looks_) {
     for (const Hit& hit : met.seen.masked) {
@@ -121,29 +123,12 @@ bool Tile::mask_uncertain() const {
         continue;
       }
       judged.push_back(hit.triangle);
-      const double cutoff = frame_.geometry.placed(hit.triangle).material->alpha_cutoff;
       Seen alone;
       alone.nearest = hit;
-      const bool kept = frame_.reader.opacity(hit, met.ray) >= cutoff;
-      const TextureReach reach = frame_.reader.texture_reach(hit, met.ray);
-      if (reach.texels > most_texels_of_corners) {
+      const double cutoff = frame_.geometry.placed(hit.triangle).material->alpha_cutoff;
+      const Bound opacity = bound_->opacity(*extended(alone, ray).nearest, ray, step);
+      if (!opacity.is_bounded() || (opacity.range().lower < cutoff && opacity.range().upper >= cutoff)) {
         return true;
-      }
-      for (const glm::dvec2& nudge : nudges) {
-        if (reach.beyond_the_step && (frame_.reader.opacity(hit, met.ray, {std::nullopt, 0, nudge}) >= cutoff) != kept) {
-          return true;
-        }
-      }
-      for (const Look& look : looks_) {
-        const Hit there = *extended(alone, look.ray).nearest;
-        if ((frame_.reader.opacity(there, look.ray) >= cutoff) != kept) {
-          return true;
-        }
-        for (const double level : frame_.reader.levels_to_try(there, look.ray, base_color)) {
-          if ((frame_.reader.opacity(there, look.ray, {level, base_color}) >= cutoff) != kept) {
-            return true;
-          }
-        }
       }
     }
   }

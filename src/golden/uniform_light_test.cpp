@@ -110,7 +110,7 @@ TEST(UniformLight, WhiteSheenOverWhiteLambertGivesTheLawOfItsScaling) {
         const auto furnace = [&](brdf::AlbedoScaling scaling) {
           Lighting lighting;
           lighting.sheen = {visibility, scaling};
-          lighting.albedo = &interpolant;
+          lighting.albedo.interpolant = &interpolant;
           return shade_uniform(surface, {true, false}, lighting, {1.0, 1.0, 1.0}).radiance.g;
         };
         const double tolerance = 1e-6 * std::max(1.0, e);

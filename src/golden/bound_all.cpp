@@ -1,0 +1,46 @@
+#include "golden/bound_all.h"
+
+#include "golden/bounded_albedo.h"
+#include "golden/bounded_mediump.h"
+#include "number/bounded_functions.h"
+#include "number/cpu.h"
+
+namespace sheen::golden {
+
+void bound_all_scalar(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
+  for (std::size_t i = 0; i < job.count; ++i) {
+    const Surface<Bound>& surface = job.surfaces[job.order[i]];
+    results[job.order[i]] =
+        (job.lobes == Precision::Mediump ? shade_with<number::Bounded<number::Mediump>>(surface, job.layers, lighting, NoListener{})
+                                         : shade(surface, job.layers, lighting, NoListener{}))
+            .radiance;
+  }
+}
+
+void bend_all_scalar(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
+  for (std::size_t i = 0; i < count; ++i) {
+    normals[i] = bent(maps[i]);
+  }
+}
+
+void bound_all(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
+#if defined(__x86_64__) || defined(__i386__)
+  if (number::has_batch()) {
+    bound_all_batch(job, lighting, results);
+    return;
+  }
+#endif
+  bound_all_scalar(job, lighting, results);
+}
+
+void bend_all(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
+#if defined(__x86_64__) || defined(__i386__)
+  if (number::has_batch()) {
+    bend_all_batch(maps, count, normals);
+    return;
+  }
+#endif
+  bend_all_scalar(maps, count, normals);
+}
+
+}  // namespace sheen::golden

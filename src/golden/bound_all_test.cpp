@@ -1,0 +1,185 @@
+#include "golden/bound_all.h"
+
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "albedo/interpolant.h"
+#include "number/bounded_functions.h"
+#include "number/cpu.h"
+
+namespace sheen::golden {
+namespace {
+
+/// Random surfaces in view space, uncertain and displaced as a reader's are, some of their numbers exact.
+class Surfaces {
+ public:
+  Surface<Bound> next() {
+    Surface<Bound> s{};
+    s.position = {moving(0.6 * uniform() - 0.3), moving(0.6 * uniform() - 0.3), moving(-1.0 - uniform())};
+    s.view = unit({0.3 * uniform(), 0.3 * uniform(), 1.0});
+    s.normal = unit({uniform() - 0.5, uniform() - 0.5, uniform()});
+    s.coat_normal = unit({uniform() - 0.5, uniform() - 0.5, uniform()});
+    s.base = {
+        color(), count_ % 3 == 0 ? Bound(0.0) : moving(uniform()), moving(uniform()), {Bound(0.04), moving(0.1), Bound(1)}, Bound(0.5)};
+    s.sheen_color = color();
+    s.sheen_roughness = count_ % 5 == 0 ? Bound(0.0) : Bound(0.3);
+    s.clearcoat = moving(uniform());
+    s.coat_alpha = count_ % 7 == 0 ? Bound(0.0) : moving(0.01 + uniform());
+    s.emission = color();
+    s.occlusion = Bound(1);
+    ++count_;
+    return s;
+  }
+
+  MappedNormal<Bound> map() {
+    const bool nothing = count_++ % 9 == 0;  // certainly no direction
+    const Vec3<Bound> none{Bound(0.5), Bound(0.5), Bound(0.5)};
+    const Vec3<Bound> code{moving(uniform()), moving(uniform()), moving(0.5 + 0.5 * uniform())};
+    return {unit({1.0, 0.2, 0.1}), unit({0.1, 1.0, -0.3}), unit({0.1, 0.2, 1.0}), nothing ? none : code, moving(1.0), Bound(-1.0)};
+  }
+
+ private:
+  double uniform() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
+  // Some so wide that the usual case of arithmetic does not hold.
+  Bound moving(double x) {
+    const double size = uniform() < 0.1 ? 0.02 : 1e-5;
+    return Bound::at_sample(x, size * (uniform() - 0.5), size * (uniform() - 0.5), 1.0, 0.3 * size);
+  }
+  brdf::Rgb<Bound> color() { return {moving(uniform()), moving(uniform()), moving(uniform())}; }
+  Vec3<Bound> unit(const glm::dvec3& v) {
+    const glm::dvec3 n = glm::normalize(v);
+    return {moving(n.x), moving(n.y), moving(n.z)};
+  }
+
+  std::mt19937 random_{3};
+  int count_ = 0;
+};
+
+void expect_same(const Bound& one, const Bound& four) {
+  ASSERT_EQ(one.is_bounded(), four.is_bounded());
+  if (one.is_bounded()) {
+    // The elementary functions of either side differ by ulps of double.
+    const double room = 1e-12 * (std::abs(one.center()) + one.deviation());
+    EXPECT_NEAR(one.center(), four.center(), room);
+    EXPECT_NEAR(one.shift_x(), four.shift_x(), room);
+    EXPECT_NEAR(one.radius(), four.radius(), room);
+    EXPECT_NEAR(one.range().lower, four.range().lower, room);
+    EXPECT_NEAR(one.range().upper, four.range().upper, room);
+  }
+}
+
+struct Comparison {
+  std::vector<Surface<Bound>> surfaces;
+  std::vector<PreparedLight> lights;
+  int bounded = 0;
+
+  Comparison() {
+    Surfaces make;
+    for (int i = 0; i < 203; ++i) {
+      surfaces.push_back(make.next());
+    }
+    scene::Light spot;
+    spot.type = scene::LightType::Spot;
+    spot.position = {0.5, 1.0, 1.0};
+    spot.direction = glm::normalize(glm::dvec3(-0.5, -1.0, -2.0));
+    spot.range = 9.0;
+    scene::Light grazing;
+    grazing.direction = glm::normalize(glm::dvec3(-1.0, 0.3, -0.2));
+    lights = prepare_lights({scene::Light{}, spot, grazing});
+  }
+
+  void compare(const Lighting& lighting, Precision lobes) {
+    std::vector<std::uint32_t> order(surfaces.size());
+    std::iota(order.rbegin(), order.rend(), 0u);
+    std::vector<brdf::Rgb<Bound>> one(surfaces.size());
+    std::vector<brdf::Rgb<Bound>> four(surfaces.size());
+    const BoundJob job{surfaces.data(), order.data(), order.size(), {true, true}, lobes};
+    bound_all_scalar(job, lighting, one.data());
+    bound_all_batch(job, lighting, four.data());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      expect_same(one[i].r, four[i].r);
+      expect_same(one[i].b, four[i].b);
+      bounded += one[i].r.is_bounded() ? 1 : 0;
+      if (::testing::Test::HasFailure()) {
+        FAIL() << "surface " << i;
+      }
+    }
+  }
+};
+
+TEST(BoundAll, BatchesAgreeWithOneAtATime) {
+  if (!number::has_batch()) {
+    return;  // there is only one way on such a machine
+  }
+  Comparison c;
+  for (const auto visibility : {albedo::Visibility::Charlie, albedo::Visibility::Ashikhmin, albedo::Visibility::Refined}) {
+    const albedo::Interpolant e(visibility);
+    Lighting lighting;
+    lighting.lights = c.lights.data();
+    lighting.light_count = c.lights.size();
+    lighting.sheen = {visibility, albedo::AlbedoScaling::Full};
+    lighting.albedo.interpolant = &e;
+    c.compare(lighting, Precision::Highp);
+    c.compare(lighting, Precision::Mediump);
+  }
+  EXPECT_GT(c.bounded, 400);
+}
+
+TEST(BoundAll, CurvesAboutOneRoughnessAgreeWithTheInterpolant) {
+  Comparison c;
+  const albedo::Interpolant e(albedo::Visibility::Charlie);
+  const Bound roughness(0.3);
+  const AlbedoAround around{e.at_roughness(roughness.range().lower), e.at_roughness(roughness.center()),
+                            e.at_roughness(roughness.range().upper)};
+  std::vector<std::uint32_t> order;
+  for (std::size_t i = 0; i < c.surfaces.size(); ++i) {
+    if (!c.surfaces[i].sheen_roughness.is_exact()) {
+      order.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  Lighting lighting;
+  lighting.lights = c.lights.data();
+  lighting.light_count = c.lights.size();
+  lighting.albedo.interpolant = &e;
+  std::vector<brdf::Rgb<Bound>> slow(c.surfaces.size());
+  std::vector<brdf::Rgb<Bound>> fast(c.surfaces.size());
+  const BoundJob job{c.surfaces.data(), order.data(), order.size(), {true, false}, Precision::Highp};
+  bound_all_scalar(job, lighting, slow.data());
+  lighting.albedo.around = &around;
+  bound_all(job, lighting, fast.data());
+  for (const std::uint32_t i : order) {
+    EXPECT_EQ(slow[i].g.is_bounded(), fast[i].g.is_bounded());
+    if (slow[i].g.is_bounded()) {
+      EXPECT_NEAR(slow[i].g.center(), fast[i].g.center(), 1e-9 * (1.0 + slow[i].g.center()));
+      EXPECT_NEAR(slow[i].g.deviation(), fast[i].g.deviation(), 1e-9 + 1e-4 * slow[i].g.deviation());
+    }
+  }
+}
+
+TEST(BendAll, BatchesAgreeWithOneAtATime) {
+  if (!number::has_batch()) {
+    return;
+  }
+  Surfaces make;
+  std::vector<MappedNormal<Bound>> maps;
+  for (int i = 0; i < 101; ++i) {
+    maps.push_back(make.map());
+  }
+  std::vector<Vec3<Bound>> one(maps.size());
+  std::vector<Vec3<Bound>> four(maps.size());
+  bend_all_scalar(maps.data(), maps.size(), one.data());
+  bend_all_batch(maps.data(), maps.size(), four.data());
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    expect_same(one[i].x, four[i].x);
+    expect_same(one[i].y, four[i].y);
+    expect_same(one[i].z, four[i].z);
+  }
+}
+
+}  // namespace
+}  // namespace sheen::golden

@@ -1,0 +1,146 @@
+#include <algorithm>
+
+#include "golden/batches.h"
+#include "golden/bound_all.h"
+#include "golden/bounded_albedo.h"
+#include "number/bounded_batch_functions.h"
+
+namespace sheen::brdf {
+
+/// As Exponents of Bounded.
+template <>
+struct Exponents<number::BoundedBatch<number::Mediump>> {
+  using Narrow = number::BoundedBatch<number::Mediump>;
+  using Type = number::BoundedBatch<number::Highp>;
+  static Type widened(const Narrow& x) { return number::converted_to(x, static_cast<const Type*>(nullptr)); }
+  static Narrow narrowed(const Type& x) { return number::converted_to(x, static_cast<const Narrow*>(nullptr)); }
+};
+
+}  // namespace sheen::brdf
+
+namespace sheen::golden {
+
+using number::Batch;
+
+/// As of Bounded; lane by lane what is not of one roughness.
+template <class Precision>
+struct AlbedoReader<number::BoundedBatch<Precision>> {
+  using B = number::BoundedBatch<Precision>;
+  using One = typename B::One;
+
+  static B sheen(const SheenAlbedo& albedo, const B& cosine, const B& sheen_roughness) {
+    B e(0.0);
+    number::BatchMask open(true);
+    if (albedo.around != nullptr) {
+      read(*albedo.around, cosine, sheen_roughness, e);
+      open = cosine.is_unbounded();
+    }
+    const auto one = [&albedo](const One& c, const One& r) { return AlbedoReader<One>::sheen(albedo, c, r); };
+    e.settle(open, number::BatchMask(false), one, cosine, sheen_roughness);
+    return e;
+  }
+
+  static bool is_smaller_for_light(const B& n_dot_l, const B& n_dot_v) {
+    const Batch least = n_dot_v.lower();
+    return xsimd::all((least >= Batch(decreasing_from)) & (n_dot_l.lower() >= n_dot_v.upper()) & ~n_dot_v.is_unbounded() &
+                      ~n_dot_l.is_unbounded());
+  }
+
+  static brdf::LobeAlbedo<B> ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha) {
+    return each([&ggx](const One& c, const One& a) { return AlbedoReader<One>::ggx(ggx, c, a); }, cosine, alpha);
+  }
+  static brdf::LobeAlbedo<B> ggx_average(const albedo::GgxInterpolant& ggx, const B& alpha) {
+    return each([&ggx](const One&, const One& a) { return AlbedoReader<One>::ggx_average(ggx, a); }, alpha, alpha);
+  }
+
+ private:
+  template <class Read>
+  static brdf::LobeAlbedo<B> each(const Read& read, const B& cosine, const B& alpha) {
+    brdf::LobeAlbedo<B> albedo;
+    for (std::size_t i = 0; i < B::lanes; ++i) {
+      const brdf::LobeAlbedo<One> one = read(cosine.lane(i), alpha.lane(i));
+      albedo.loss.set_lane(i, one.loss);
+      albedo.bias.set_lane(i, one.bias);
+    }
+    return albedo;
+  }
+
+  /// AlbedoReader<One>::read, in lanes that are bounded.
+  static void read(const AlbedoAround& around, const B& cosine, const B& roughness, B& e) {
+    const Batch c = cosine.center();
+    const Batch value = around.center(c);
+    const Batch width = cosine.upper() - cosine.lower();
+    const Batch low = around.center(cosine.lower());
+    const Batch high = around.center(cosine.upper());
+    const Batch slope = select(width > Batch(0.0), (high - low) / width, Batch(0.0));
+    Batch lowest = xsimd::min(value, xsimd::min(low, high));
+    Batch highest = xsimd::max(value, xsimd::max(low, high));
+    const auto left = [&](const Batch& there, const Batch& at) { return xsimd::abs(there - value - slope * (at - c)); };
+    Batch remainder = xsimd::max(left(low, cosine.lower()), left(high, cosine.upper()));
+    if (!xsimd::all(roughness.is_exact())) {
+      for (const albedo::Curve* curve : {&around.lower, &around.upper}) {
+        const Batch at_lower = (*curve)(cosine.lower());
+        const Batch at_upper = (*curve)(cosine.upper());
+        lowest = xsimd::min(lowest, xsimd::min(at_lower, at_upper));
+        highest = xsimd::max(highest, xsimd::max(at_lower, at_upper));
+        remainder = xsimd::max(remainder, xsimd::max(left(at_lower, cosine.lower()), left(at_upper, cosine.upper())));
+      }
+    }
+    const Batch off = albedo::lookup_error(highest, c, roughness.center());
+    const Batch radius = xsimd::abs(slope) * cosine.radius() + remainder;
+    e.round({value, slope * cosine.shift_x(), slope * cosine.shift_y(), radius, lowest, highest}, B::Error::absolute(0, off), true);
+  }
+};
+
+template <class Precision>
+inline constexpr bool finds_lookup_error<number::BoundedBatch<Precision>> = false;
+
+/// unit_or() of mapped_normal.h in every lane.
+template <class Precision>
+Vec3<number::BoundedBatch<Precision>> unit_or(const Vec3<number::BoundedBatch<Precision>>& v,
+                                              const Vec3<number::BoundedBatch<Precision>>& otherwise) {
+  using Many = number::BoundedBatch<Precision>;
+  using One = typename Many::One;
+  const Many squared = dot(v, v);
+  Vec3<Many> unit = v * inversesqrt(squared);
+  const number::BatchMask has_direction = (squared.lower() > Batch(smallest_length_squared)) & ~squared.is_unbounded();
+  for (std::size_t i = 0; i < Many::lanes; ++i) {
+    if (!has_direction.get(i)) {
+      const auto lane = [i](const Vec3<Many>& w) { return Vec3<One>{w.x.lane(i), w.y.lane(i), w.z.lane(i)}; };
+      const Vec3<One> one = unit_or(lane(v), lane(otherwise));
+      unit.x.set_lane(i, one.x);
+      unit.y.set_lane(i, one.y);
+      unit.z.set_lane(i, one.z);
+    }
+  }
+  return unit;
+}
+
+namespace {
+
+using Many = number::BoundedBatch<number::Highp>;
+
+}  // namespace
+
+void bend_all_batch(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
+  for (std::size_t i = 0; i < count; i += Many::lanes) {
+    const std::size_t here = std::min(count - i, Many::lanes);
+    const auto of = [here](std::size_t lane) { return static_cast<std::uint32_t>(std::min(lane, here - 1)); };
+    const std::uint32_t order[Many::lanes] = {of(0), of(1), of(2), of(3)};
+    scatter(bent(gather<MappedNormal<Many>>(maps + i, order, here)), order, here, normals + i);
+  }
+}
+
+void bound_all_batch(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
+  using Lobes = number::BoundedBatch<number::Mediump>;
+  for (std::size_t i = 0; i < job.count; i += Many::lanes) {
+    const std::size_t here = std::min(job.count - i, Many::lanes);
+    const auto surfaces = gather<Surface<Many>>(job.surfaces, job.order + i, here);
+    const brdf::Rgb<Many> radiance = (job.lobes == Precision::Mediump ? shade_with<Lobes>(surfaces, job.layers, lighting, NoListener{})
+                                                                      : shade(surfaces, job.layers, lighting, NoListener{}))
+                                         .radiance;
+    scatter(radiance, job.order + i, here, results);
+  }
+}
+
+}  // namespace sheen::golden
