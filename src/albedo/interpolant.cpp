@@ -106,7 +106,7 @@ struct Interpolant::Impl {
   }
 
   void make(Patch& patch, int ix, int iy) const {
-    const auto x_of = [ix](double t) { return -patch_x * (ix + (1 - t) / 2); };
+    const auto x_of = [ix](double t) { return -patch_x * (Curve::start_of(ix) + Curve::length_of(ix) * (1 - t) / 2); };
     const auto y_of = [iy](double t) { return -patch_y * (iy + (1 - t) / 2); };
     for (int j = 0; j < nodes; ++j) {
       for (int i = 0; i < nodes; ++i) {
@@ -142,12 +142,12 @@ double Interpolant::operator()(double n_dot_v, double sheen_roughness) const {
     return 0;
   }
   const double u = std::log(t) / -patch_x, v = std::log(r) / -patch_y;  // in patches
-  const int ix = std::min(static_cast<int>(u), patches_x - 1), iy = std::min(static_cast<int>(v), patches_y - 1);
+  const int ix = Curve::patch_at(u), iy = std::min(static_cast<int>(v), patches_y - 1);
   const Patch& patch = impl_->patch(ix, iy);
   if (!patch.usable) {
     return directional_albedo(impl_->visibility, cosine_of(t), r);
   }
-  return std::exp(patch.at(1 - 2 * (u - ix), 1 - 2 * (v - iy)) - drop);
+  return std::exp(patch.at(1 - 2 * (u - Curve::start_of(ix)) / Curve::length_of(ix), 1 - 2 * (v - iy)) - drop);
 }
 
 Curve Interpolant::at_roughness(double sheen_roughness) const {
@@ -160,7 +160,7 @@ Curve Interpolant::at_roughness(double sheen_roughness) const {
   const int iy = std::min(static_cast<int>(v), patches_y - 1);
   for (int ix = 0; ix < patches_x; ++ix) {
     // The least T of the patch: where the drop is least.
-    if (!(log_peak_drop(std::exp(-patch_x * (ix + 1)), r) < negligible_drop)) {
+    if (!(log_peak_drop(std::exp(-patch_x * (Curve::start_of(ix) + Curve::length_of(ix))), r) < negligible_drop)) {
       continue;
     }
     const Patch& patch = impl_->patch(ix, iy);

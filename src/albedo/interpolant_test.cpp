@@ -26,6 +26,26 @@ TEST(Interpolant, MeetsQuadratureEverywhere) {
   }
 }
 
+// Where E is small it is still right to its own size: a furnace of the sheen lobe alone shows nothing else.
+TEST(Interpolant, HoldsRelativelyAboutNormalIncidence) {
+  std::mt19937 generator(12);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+    const Interpolant interpolant(visibility);
+    for (int i = 0; i < 600; ++i) {
+      const double mu = i % 20 == 0 ? 1.0 : 1.0 - 0.5 * unit(generator);
+      const double r = 0.17 + 0.5 * unit(generator);
+      const double e = directional_albedo(visibility, mu, r);
+      EXPECT_NEAR(interpolant(mu, r) / e, 1.0, 2e-6) << "n_dot_v " << mu << " sheen_roughness " << r;
+    }
+  }
+  const Interpolant ashikhmin(Visibility::Ashikhmin);
+  for (const double r : {0.2, 0.3, 0.5, 1.0}) {
+    const double p = 0.5 / (r * r);
+    EXPECT_NEAR(ashikhmin(1.0, r) * std::exp2(p + 1) * (p + 2), 1.0, 1e-6) << r;
+  }
+}
+
 TEST(Interpolant, HoldsAtItsCorners) {
   const Interpolant interpolant(Visibility::Charlie);
   EXPECT_NEAR(interpolant(1, 1), directional_albedo(Visibility::Charlie, 1, 1), 3e-7);
