@@ -1,6 +1,7 @@
 #include "conformance/report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "conformance/html.h"
@@ -72,13 +73,25 @@ std::string figure(const std::string& name, const std::string& value) {
   return "<span>" + name + " <b>" + value + "</b></span>";
 }
 
+/// "1205 (1200 at edges, 5 of masks)"
+std::string excluded(const Verdict& verdict) {
+  constexpr std::array<const char*, 5> reasons = {nullptr, "at edges", "of masks", "of textures", "unpromised"};
+  std::string parts;
+  for (std::size_t reason = 1; reason < reasons.size(); ++reason) {
+    if (verdict.excluded_by.at(reason) > 0) {
+      parts += (parts.empty() ? "" : ", ") + std::to_string(verdict.excluded_by.at(reason)) + " " + reasons.at(reason);
+    }
+  }
+  return std::to_string(verdict.excluded_pixels) + (parts.empty() ? "" : " (" + parts + ")");
+}
+
 std::string figures(const CaseResult& one) {
   std::string html = "<div class=figures>" + figure("model", escape_html(one.model));
   if (one.verdict) {
     const Verdict& v = *one.verdict;
     html += figure(one.scenes.empty() ? "error / bound" : "deviation / tolerance", number(v.bound_ratio)) +
             figure("max abs", number(v.max_abs)) + figure("max rel", number(v.max_rel)) + figure("p99 rel", number(v.p99_rel)) +
-            figure("compared", std::to_string(v.compared_pixels)) + figure("excluded", std::to_string(v.excluded_pixels));
+            figure("compared", std::to_string(v.compared_pixels)) + figure("excluded", excluded(v));
     if (v.median_bound > 0) {
       html += figure("median bound", number(v.median_bound));
     }

@@ -65,7 +65,7 @@ TEST(Results, JsonHasTheMembersOfTheContract) {
   for (const json& one : root["cases"]) {
     for (const char* key :
          {"name", "status", "max_abs", "max_rel", "p99_rel", "worst_pixel", "bound_ratio", "compared_pixels", "excluded_pixels",
-          "nonfinite_pixels", "median_bound", "vague_pixels", "negative_pixels", "identified", "seconds", "message"}) {
+          "excluded_by", "nonfinite_pixels", "median_bound", "vague_pixels", "negative_pixels", "identified", "seconds", "message"}) {
       EXPECT_TRUE(one.contains(key)) << key;
     }
   }
@@ -83,8 +83,10 @@ TEST(Results, WhatWasLeftOutIsToldThoughNothingWasCompared) {
   RunRecord record = record_of({Status::Pass});
   record.cases[0].verdict = Verdict{};
   record.cases[0].verdict->excluded_pixels = 40;
+  record.cases[0].verdict->excluded_by = {0, 30, 4, 0, 6};
   const json one = json::parse(results_json(record))["cases"][0];
   EXPECT_EQ(one["excluded_pixels"], 40);
+  EXPECT_EQ(one["excluded_by"], (json{{"edges", 30}, {"masks", 4}, {"textures", 0}, {"unpromised", 6}}));
   EXPECT_EQ(one["compared_pixels"], 0);
   EXPECT_TRUE(one["bound_ratio"].is_null()) << "an error of 0 is a measured one";
 }

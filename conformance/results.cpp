@@ -28,6 +28,11 @@ json case_json(const CaseResult& one) {
   made["median_bound"] = figure(&Verdict::median_bound);
   made["compared_pixels"] = pixels(&Verdict::compared_pixels);
   made["excluded_pixels"] = pixels(&Verdict::excluded_pixels);
+  made["excluded_by"] = nullptr;
+  if (counted) {
+    const auto& by = one.verdict->excluded_by;
+    made["excluded_by"] = {{"edges", by[1]}, {"masks", by[2]}, {"textures", by[3]}, {"unpromised", by[4]}};
+  }
   made["vague_pixels"] = figure(&Verdict::vague_pixels);
   made["negative_pixels"] = pixels(&Verdict::negative_pixels);
   made["nonfinite_pixels"] = figure(&Verdict::nonfinite_pixels);

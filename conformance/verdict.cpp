@@ -217,7 +217,7 @@ std::string too_many_excluded(const Verdict& verdict, std::int64_t covered) {
   std::string text =
       std::to_string(verdict.excluded_pixels) + " of " + std::to_string(covered) + " covered pixels are excluded, more than may be";
   constexpr std::array<const char*, 5> reasons = {nullptr, "at edges", "where an alpha mask may fall either way",
-                                                  "where a texture without mipmaps is seen from too far",
+                                                  "where a texture without mipmaps under an environment is seen from too far",
                                                   "where the rules of GLSL ES promise nothing"};
   std::string parts;
   for (std::size_t reason = 1; reason < reasons.size(); ++reason) {

@@ -26,8 +26,8 @@ struct Verdict {
   int worst_y = -1;
   std::int64_t compared_pixels = 0;
   std::int64_t excluded_pixels = 0;  ///< covered by either image, and left out since rasterisation may rightly differ there
-  /// Those left out by the golden's reason: [1] another surface or none, [2] an alpha mask that may fall either way, [3] a texture without
-  /// mipmaps seen from too far, [4] an operation for which the rules of GLSL ES promise nothing.
+  /// Those left out by the golden's reason: [1] another surface or none, [2] an alpha mask that may fall either way, [3] under an
+  /// environment, a texture without mipmaps seen from too far, [4] an operation for which the rules of GLSL ES promise nothing.
   std::array<std::int64_t, 5> excluded_by{};
   /// Compared, but black and twice the golden would both pass, and it shows: its bound is above the brightest channel of the pixel and
   /// above a tenth of what the picture's pixels have on average and above the least normal number.

@@ -7,7 +7,7 @@ namespace sheen::albedo {
 using GgxAlbedo = brdf::LobeAlbedo<double>;
 
 /// alpha up to which those who read tables take the GGX lobe for a mirror, which loses nothing: at n_dot_v 1e-4 it loses less than 1e-8. A
-/// little below the square of 1e-4, a roughness that people try.
+/// little below the square of 1e-4, so that no rounding of that roughness straddles it. shaders/ggx_albedo.glsl repeats it.
 inline constexpr double mirror_alpha = 9.9e-9;
 
 /// Albedo of the GGX lobe D Vis (brdf/ggx.h) at one cosine, by quadrature: the loss 1 - E to a relative 1e-9, the bias to an absolute 1e-6

@@ -7,9 +7,10 @@
 
 namespace sheen::albedo {
 
-/// E to 6e-7 (relative, or absolute where E < 1; half of it the quadrature's own) for any cosine and roughness, and to 2e-6 of itself from
-/// sheen_roughness 0.17 up, hundreds of times faster than quadrature: Chebyshev patches over (n_dot_v, sheen_roughness), each made when
-/// first touched and held to quadrature at points between its nodes; a patch that misses is not used. Safe to call from many threads.
+/// E to 6e-7 (relative, or absolute where E < 1; half of it the quadrature's own) for any cosine and roughness, and to 2e-6 of itself for
+/// cosines above 0.5 and roughness above 0.17, hundreds of times faster than quadrature: Chebyshev patches over (n_dot_v, sheen_roughness),
+/// each made when first touched and held to quadrature at points between its nodes; a patch that misses is not used. Safe to call from many
+/// threads.
 class Interpolant {
  public:
   explicit Interpolant(Visibility visibility);

@@ -42,8 +42,12 @@ struct AlbedoReader {
     return Lanes::load(c);
   }
 
-  /// Whether E(N.L) is certain to be no larger than E(N.V), so that it need not be read.
-  static bool is_smaller_for_light(const Real&, const Real&) { return false; }
+  /// E(N.L), which `read` gives. A type that knows it to be no larger than E(N.V) may give that, which does as well where the larger
+  /// counts.
+  template <class Read>
+  static Real for_light(const Real& /*e_v*/, const Real& /*n_dot_l*/, const Real& /*n_dot_v*/, const Read& read) {
+    return read();
+  }
 
   /// Albedo of the GGX lobe at a cosine.
   static brdf::LobeAlbedo<Real> ggx(const albedo::GgxInterpolant& ggx, const Real& cosine, const Real& alpha) {

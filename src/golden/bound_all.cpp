@@ -7,6 +7,24 @@
 
 namespace sheen::golden {
 
+template <class Precision>
+auto OneAlbedo<Precision>::sheen(const SheenAlbedo& albedo, const B& cosine, const B& sheen_roughness) -> B {
+  return AlbedoReader<B>::sheen(albedo, cosine, sheen_roughness);
+}
+
+template <class Precision>
+auto OneAlbedo<Precision>::ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha) -> brdf::LobeAlbedo<B> {
+  return AlbedoReader<B>::ggx(ggx, cosine, alpha);
+}
+
+template <class Precision>
+auto OneAlbedo<Precision>::ggx_average(const albedo::GgxInterpolant& ggx, const B& alpha) -> brdf::LobeAlbedo<B> {
+  return AlbedoReader<B>::ggx_average(ggx, alpha);
+}
+
+template struct OneAlbedo<number::Highp>;
+template struct OneAlbedo<number::Mediump>;
+
 void bound_all_scalar(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
   for (std::size_t i = 0; i < job.count; ++i) {
     const Surface<Bound>& surface = job.surfaces[job.order[i]];

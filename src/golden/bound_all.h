@@ -9,6 +9,21 @@
 
 namespace sheen::golden {
 
+/// E falls with its cosine from here up, for every visibility and roughness (KHR_materials_sheen leaves that unsaid;
+/// directional_albedo_test holds it).
+inline constexpr double decreasing_from = 0.008;
+
+/// AlbedoReader of number::Bounded, in a translation unit that every processor runs: what number::BoundedBatch asks of single lanes.
+template <class Precision>
+struct OneAlbedo {
+  using B = number::Bounded<Precision>;
+  static B sheen(const SheenAlbedo& albedo, const B& cosine, const B& sheen_roughness);
+  static brdf::LobeAlbedo<B> ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha);
+  static brdf::LobeAlbedo<B> ggx_average(const albedo::GgxInterpolant& ggx, const B& alpha);
+};
+extern template struct OneAlbedo<number::Highp>;
+extern template struct OneAlbedo<number::Mediump>;
+
 /// Surfaces in view space whose radiance is wanted on number::Bounded; all have the same layers.
 struct BoundJob {
   const Surface<Bound>* surfaces;

@@ -67,6 +67,7 @@ void expect_same(const Bound& one, const Bound& four) {
     const double room = 1e-12 * (std::abs(one.center()) + one.deviation());
     EXPECT_NEAR(one.center(), four.center(), room);
     EXPECT_NEAR(one.shift_x(), four.shift_x(), room);
+    EXPECT_NEAR(one.shift_y(), four.shift_y(), room);
     EXPECT_NEAR(one.radius(), four.radius(), room);
     EXPECT_NEAR(one.range().lower, four.range().lower, room);
     EXPECT_NEAR(one.range().upper, four.range().upper, room);
@@ -93,16 +94,17 @@ struct Comparison {
     lights = prepare_lights({scene::Light{}, spot, grazing});
   }
 
-  void compare(const Lighting& lighting, Precision lobes) {
+  void compare(const Lighting& lighting, Precision lobes, Layers layers = {true, true}) {
     std::vector<std::uint32_t> order(surfaces.size());
     std::iota(order.rbegin(), order.rend(), 0u);
     std::vector<brdf::Rgb<Bound>> one(surfaces.size());
     std::vector<brdf::Rgb<Bound>> four(surfaces.size());
-    const BoundJob job{surfaces.data(), order.data(), order.size(), {true, true}, lobes};
+    const BoundJob job{surfaces.data(), order.data(), order.size(), layers, lobes};
     bound_all_scalar(job, lighting, one.data());
     bound_all_batch(job, lighting, four.data());
     for (std::size_t i = 0; i < one.size(); ++i) {
       expect_same(one[i].r, four[i].r);
+      expect_same(one[i].g, four[i].g);
       expect_same(one[i].b, four[i].b);
       bounded += one[i].r.is_bounded() ? 1 : 0;
       if (::testing::Test::HasFailure()) {
@@ -128,6 +130,20 @@ TEST(BoundAll, BatchesAgreeWithOneAtATime) {
     c.compare(lighting, Precision::Mediump);
   }
   EXPECT_GT(c.bounded, 400);
+}
+
+TEST(BoundAll, BatchesOfThePhysicalModelAgreeWithOneAtATime) {
+  if (!number::has_batch()) {
+    return;
+  }
+  Comparison c;
+  const albedo::GgxInterpolant ggx;
+  Lighting lighting;
+  lighting.lights = c.lights.data();
+  lighting.light_count = c.lights.size();
+  lighting.ggx = &ggx;
+  c.compare(lighting, Precision::Highp, {false, false});
+  EXPECT_GT(c.bounded, 50);
 }
 
 TEST(BoundAll, CurvesAboutOneRoughnessAgreeWithTheInterpolant) {

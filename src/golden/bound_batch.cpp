@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "albedo/lookup_error.h"
 #include "golden/batches.h"
 #include "golden/bound_all.h"
-#include "golden/bounded_albedo.h"
 #include "number/bounded_batch_functions.h"
 
 namespace sheen::brdf {
@@ -22,11 +22,11 @@ namespace sheen::golden {
 
 using number::Batch;
 
-/// As of Bounded; lane by lane what is not of one roughness.
+/// As of Bounded; lane by lane, and in a translation unit that every processor runs, what is not of one roughness.
 template <class Precision>
 struct AlbedoReader<number::BoundedBatch<Precision>> {
   using B = number::BoundedBatch<Precision>;
-  using One = typename B::One;
+  using One = number::Bounded<Precision>;
 
   static B sheen(const SheenAlbedo& albedo, const B& cosine, const B& sheen_roughness) {
     B e(0.0);
@@ -35,22 +35,31 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
       read(*albedo.around, cosine, sheen_roughness, e);
       open = cosine.is_unbounded();
     }
-    const auto one = [&albedo](const One& c, const One& r) { return AlbedoReader<One>::sheen(albedo, c, r); };
-    e.settle(open, number::BatchMask(false), one, cosine, sheen_roughness);
+    for (std::size_t i = 0; i < B::lanes; ++i) {
+      if (open.get(i)) {
+        e.set_lane(i, OneAlbedo<Precision>::sheen(albedo, cosine.template lane<One>(i), sheen_roughness.template lane<One>(i)));
+      }
+    }
     return e;
   }
 
-  static bool is_smaller_for_light(const B& n_dot_l, const B& n_dot_v) {
-    const Batch least = n_dot_v.lower();
-    return xsimd::all((least >= Batch(decreasing_from)) & (n_dot_l.lower() >= n_dot_v.upper()) & ~n_dot_v.is_unbounded() &
-                      ~n_dot_l.is_unbounded());
+  template <class Read>
+  static B for_light(const B& e_v, const B& n_dot_l, const B& n_dot_v, const Read& read) {
+    const number::BatchMask smaller = (n_dot_v.lower() >= Batch(decreasing_from)) & (n_dot_l.lower() >= n_dot_v.upper()) &
+                                      ~n_dot_v.is_unbounded() & ~n_dot_l.is_unbounded();
+    if (xsimd::all(smaller)) {
+      return e_v;
+    }
+    B e = read();
+    e.take(smaller, e_v);
+    return e;
   }
 
   static brdf::LobeAlbedo<B> ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha) {
-    return each([&ggx](const One& c, const One& a) { return AlbedoReader<One>::ggx(ggx, c, a); }, cosine, alpha);
+    return each([&ggx](const One& c, const One& a) { return OneAlbedo<Precision>::ggx(ggx, c, a); }, cosine, alpha);
   }
   static brdf::LobeAlbedo<B> ggx_average(const albedo::GgxInterpolant& ggx, const B& alpha) {
-    return each([&ggx](const One&, const One& a) { return AlbedoReader<One>::ggx_average(ggx, a); }, alpha, alpha);
+    return each([&ggx](const One&, const One& a) { return OneAlbedo<Precision>::ggx_average(ggx, a); }, alpha, alpha);
   }
 
  private:
@@ -58,7 +67,7 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
   static brdf::LobeAlbedo<B> each(const Read& read, const B& cosine, const B& alpha) {
     brdf::LobeAlbedo<B> albedo;
     for (std::size_t i = 0; i < B::lanes; ++i) {
-      const brdf::LobeAlbedo<One> one = read(cosine.lane(i), alpha.lane(i));
+      const brdf::LobeAlbedo<One> one = read(cosine.template lane<One>(i), alpha.template lane<One>(i));
       albedo.loss.set_lane(i, one.loss);
       albedo.bias.set_lane(i, one.bias);
     }
@@ -96,9 +105,8 @@ template <class Precision>
 inline constexpr bool finds_lookup_error<number::BoundedBatch<Precision>> = false;
 
 /// unit_or() of mapped_normal.h in every lane.
-template <class Precision>
-Vec3<number::BoundedBatch<Precision>> unit_or(const Vec3<number::BoundedBatch<Precision>>& v,
-                                              const Vec3<number::BoundedBatch<Precision>>& otherwise) {
+template <class Precision, class Otherwise>
+Vec3<number::BoundedBatch<Precision>> unit_or(const Vec3<number::BoundedBatch<Precision>>& v, const Otherwise& otherwise) {
   using Many = number::BoundedBatch<Precision>;
   using One = typename Many::One;
   const Many squared = dot(v, v);
@@ -107,7 +115,7 @@ Vec3<number::BoundedBatch<Precision>> unit_or(const Vec3<number::BoundedBatch<Pr
   for (std::size_t i = 0; i < Many::lanes; ++i) {
     if (!has_direction.get(i)) {
       const auto lane = [i](const Vec3<Many>& w) { return Vec3<One>{w.x.lane(i), w.y.lane(i), w.z.lane(i)}; };
-      const Vec3<One> one = unit_or(lane(v), lane(otherwise));
+      const Vec3<One> one = unit_or(lane(v), [&] { return lane(otherwise()); });
       unit.x.set_lane(i, one.x);
       unit.y.set_lane(i, one.y);
       unit.z.set_lane(i, one.z);
@@ -116,22 +124,17 @@ Vec3<number::BoundedBatch<Precision>> unit_or(const Vec3<number::BoundedBatch<Pr
   return unit;
 }
 
-namespace {
-
-using Many = number::BoundedBatch<number::Highp>;
-
-}  // namespace
-
 void bend_all_batch(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
+  using Many = number::BoundedBatch<number::Highp>;
+  constexpr std::uint32_t order[Many::lanes] = {0, 1, 2, 3};
   for (std::size_t i = 0; i < count; i += Many::lanes) {
     const std::size_t here = std::min(count - i, Many::lanes);
-    const auto of = [here](std::size_t lane) { return static_cast<std::uint32_t>(std::min(lane, here - 1)); };
-    const std::uint32_t order[Many::lanes] = {of(0), of(1), of(2), of(3)};
     scatter(bent(gather<MappedNormal<Many>>(maps + i, order, here)), order, here, normals + i);
   }
 }
 
 void bound_all_batch(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
+  using Many = number::BoundedBatch<number::Highp>;
   using Lobes = number::BoundedBatch<number::Mediump>;
   for (std::size_t i = 0; i < job.count; i += Many::lanes) {
     const std::size_t here = std::min(job.count - i, Many::lanes);

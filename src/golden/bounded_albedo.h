@@ -6,14 +6,11 @@
 #include "albedo/ggx_table.h"
 #include "albedo/lookup_error.h"
 #include "golden/albedo_reader.h"
+#include "golden/bound_all.h"
 #include "golden/shade.h"
 #include "number/bounded_conversion.h"
 
 namespace sheen::golden {
-
-/// E falls with its cosine from here up, for every visibility and roughness (KHR_materials_sheen leaves that unsaid;
-/// directional_albedo_test holds it).
-inline constexpr double decreasing_from = 0.008;
 
 /// Tabulated albedos on number::Bounded: value and slope at the centre, all that the arguments' ranges reach, and what a shader that reads
 /// a table in highp is off. The albedos have no bend that matters over ranges as small as those of a rounding or of a sub-pixel step: what
@@ -33,9 +30,11 @@ struct AlbedoReader<number::Bounded<Precision>> {
     return read(at_ends(*albedo.interpolant, sheen_roughness), error, cosine, sheen_roughness);
   }
 
-  static bool is_smaller_for_light(const B& n_dot_l, const B& n_dot_v) {
-    return n_dot_v.is_bounded() && n_dot_l.is_bounded() && n_dot_v.range().lower >= decreasing_from &&
-           n_dot_l.range().lower >= n_dot_v.range().upper;
+  template <class Read>
+  static B for_light(const B& e_v, const B& n_dot_l, const B& n_dot_v, const Read& read) {
+    const bool smaller = n_dot_v.is_bounded() && n_dot_l.is_bounded() && n_dot_v.range().lower >= decreasing_from &&
+                         n_dot_l.range().lower >= n_dot_v.range().upper;
+    return smaller ? e_v : read();
   }
 
   static brdf::LobeAlbedo<B> ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -46,6 +47,31 @@ Texel unbounded_texel() {
   return {none, none, none, none};
 }
 
+/// Where a normal map turns farther than this, in radians, between two corners of its levels, they are enclosed by two surfaces instead of
+/// one: tighter where a lobe is narrow, at the price of shading once more.
+constexpr double widest_turn = 0.05;
+constexpr double most_cells = 2;
+
+/// What a map may give at levels between two corners.
+std::vector<Spread> cells(TextureBox& box, double from, double to) {
+  const auto direction = [](const Spread& s) { return glm::dvec3(s.value) * 2.0 - 1.0; };
+  Spread before = box(from);
+  const glm::dvec3 first = direction(before);
+  const glm::dvec3 last = direction(box(to));
+  const double turn = std::atan2(glm::length(glm::cross(first, last)), glm::dot(first, last));
+  const double count = std::clamp(std::ceil(turn / widest_turn), 1.0, most_cells);
+  std::vector<Spread> all;
+  for (double i = 1.0; i <= count; i += 1.0) {
+    const Spread after = box(i < count ? from + (to - from) * i / count : to);
+    Spread cell = before;
+    cell.value = 0.5 * (before.value + after.value);
+    cell.radius = 0.5 * glm::abs(after.value - before.value) + glm::max(before.radius, after.radius);
+    all.push_back(cell);
+    before = after;
+  }
+  return all;
+}
+
 glm::dmat3 rotation_into_view(const scene::Camera& camera) {
   return glm::transpose(glm::dmat3(camera.world_from_camera));
 }
@@ -83,7 +109,7 @@ class BoundedSurfaceReader::At {
   Vector face_normal(const Vector& position) const;
   Vector transformed(const std::array<glm::dvec3, 3>& directions, const glm::dmat3& view_from_local) const;
   Vector normal(const Vector& position) const;
-  Vector tangent(const Vector& normal, bool& has_one) const;
+  std::optional<Vector> tangent(const Vector& normal) const;
   Vector mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& others) const;
   Bound opacity(const Texel& base_color) const;
   Bound vertex_color(int channel) const;
@@ -196,23 +222,21 @@ Vector BoundedSurfaceReader::At::normal(const Vector& position) const {
   m = scale > 0.0 ? m * (1.0 / scale) : m;
   const auto& normals = placed_.primitive->normals;
   const Vector n = transformed({glm::dvec3(normals[local_[0]]), glm::dvec3(normals[local_[1]]), glm::dvec3(normals[local_[2]])}, m);
-  const Bound squared = dot(n, n);
-  if (squared.is_bounded() && squared.range().lower > 1e-30) {
-    return n * inversesqrt(squared);
-  }
-  return unit_or(n, face_normal(position));
+  // The face's is seldom needed.
+  return unit_or(n, [&] { return face_normal(position); });
 }
 
 // Unit. Where the shader finds none it has no use for the map.
-Vector BoundedSurfaceReader::At::tangent(const Vector& normal, bool& has_one) const {
+std::optional<Vector> BoundedSurfaceReader::At::tangent(const Vector& normal) const {
   const auto& tangents = placed_.primitive->tangents;
   const std::array<glm::dvec3, 3> along{glm::dvec3(tangents[local_[0]]), glm::dvec3(tangents[local_[1]]), glm::dvec3(tangents[local_[2]])};
   const glm::dmat3 m = r_.view_from_world_ * placed_.linear;
-  has_one = m * along[0] != glm::dvec3(0.0) || m * along[1] != glm::dvec3(0.0) || m * along[2] != glm::dvec3(0.0);
-  return has_one ? unit_or(transformed(along, m), normal) : normal;
+  const bool has_one = m * along[0] != glm::dvec3(0.0) || m * along[1] != glm::dvec3(0.0) || m * along[2] != glm::dvec3(0.0);
+  return has_one ? std::optional(unit_or(transformed(along, m), [&] { return normal; })) : std::nullopt;
 }
 
-// At the map's ideal level; and, in `others`, at all that are worth a try.
+// At the map's ideal level; and, in `others`, at all that are allowed: in cells of levels, over each of which what the map gives runs
+// straight from end to end.
 Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& others) const {
   const bool of_coat = map == SurfaceReader::clearcoat_normal_slot;
   const Slot& slot = of_coat ? material_.clearcoat_normal : material_.normal;
@@ -220,24 +244,28 @@ Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& no
   if (!slot.texture || placed_.primitive->tangents.empty()) {
     return facing;
   }
-  bool has_tangent = false;
-  const Vector along = tangent(normal, has_tangent);
-  if (!has_tangent) {
+  const std::optional<Vector> along = tangent(normal);
+  if (!along) {
     return facing;
   }
   const auto& tangents = placed_.primitive->tangents;
   const Bound w = bound(interpolate_({tangents[local_[0]].w, tangents[local_[1]].w, tangents[local_[2]].w}, 0.0));
   const Place at = place(slot);
   TextureBox box(*slot.texture, at.uv, at.reach);
-  const auto mapped = [&, across = cross(normal, along) * w](double level) {
-    const Texel read = at.is_bounded() ? texel(box(level)) : unbounded_texel();
-    const Bound scale(of_coat ? material_.source->clearcoat.normal_scale : material_.source->normal_scale);
-    return MappedNormal<Bound>{along, across, normal, {read.r, read.g, read.b}, scale, Bound(hit_.front ? 1.0 : -1.0)};
+  const Bound scale(of_coat ? material_.source->clearcoat.normal_scale : material_.source->normal_scale);
+  const auto mapped = [&, across = cross(normal, *along) * w](const Spread& spread) {
+    const Texel read = at.is_bounded() ? texel(spread) : unbounded_texel();
+    return MappedNormal<Bound>{*along, across, normal, {read.r, read.g, read.b}, scale, Bound(hit_.front ? 1.0 : -1.0)};
   };
-  for (const double level : r_.reader_.levels_to_try(hit_, ray_, map)) {
-    others.push_back(mapped(level));
+  if (slot.texture->needs_lod()) {
+    const std::vector<double> corners = r_.reader_.corners(slot, hit_, ray_);
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      for (const Spread& cell : cells(box, corners[i - 1], corners[i])) {
+        others.push_back(mapped(cell));
+      }
+    }
   }
-  return bent(mapped(r_.reader_.level(slot, hit_, ray_)));
+  return bent(mapped(box(r_.reader_.level(slot, hit_, ray_))));
 }
 
 Bound BoundedSurfaceReader::At::vertex_color(int channel) const {
@@ -246,7 +274,8 @@ Bound BoundedSurfaceReader::At::vertex_color(int channel) const {
 }
 
 Bound BoundedSurfaceReader::At::opacity(const Texel& base_color) const {
-  Bound alpha = Bound(material_.source->base_color_factor.w) * base_color.a;
+  // The factor as a shader is given it, since at a mask the last digit decides.
+  Bound alpha = Bound(static_cast<float>(material_.source->base_color_factor.w)) * base_color.a;
   if (!placed_.primitive->colors.empty()) {
     alpha = alpha * vertex_color(3);
   }
@@ -300,10 +329,11 @@ BoundedSurface BoundedSurfaceReader::At::read() const {
   s.position = position();
   const Vector up{Bound(0.0), Bound(0.0), Bound(1)};
   const Vector toward{-s.position.x, -s.position.y, -s.position.z};
-  s.view = r_.rays_.camera().perspective ? unit_or(toward, up) : up;
+  s.view = r_.rays_.camera().perspective ? unit_or(toward, [&] { return up; }) : up;
   const Vector interpolated = normal(s.position);
   s.normal = mapped_normal(SurfaceReader::normal_slot, interpolated, out.normals);
   s.coat_normal = mapped_normal(SurfaceReader::clearcoat_normal_slot, interpolated, out.coat_normals);
+  out.edge_on = interpolate_.is_edge_on();
   read_base(s, out.opacity);
   read_layers(s);
   return out;

@@ -15,7 +15,8 @@ namespace sheen::golden {
 struct BoundedSurface {
   Surface<Bound> surface;  ///< position and directions in view space, where a shader's roundings happen
   Bound opacity{1};
-  /// Of its normal maps at other levels of detail that OpenGL ES allows, from the least to the most.
+  bool edge_on = false;  ///< see Interpolation
+  /// Of its normal maps at all levels of detail that OpenGL ES allows, each over some of them.
   std::vector<MappedNormal<Bound>> normals, coat_normals;
 };
 

@@ -17,7 +17,7 @@
 namespace sheen::golden {
 
 /// Changes with every change of a formula that can change a golden; part of the key of every cached or committed golden.
-inline constexpr const char* formula_version = "3";
+inline constexpr const char* formula_version = "4";
 
 /// The precision that a shader's lobes and Fresnel terms have; all else is highp.
 enum class Precision { Highp, Mediump };
@@ -37,12 +37,13 @@ struct Settings {
 };
 
 /// Renders the truth: channels R G B A and, with bounds, bound.R bound.G bound.B (absolute, in the unit of R), `excluded` (1 where
-/// rasterisation may rightly show another surface or none: a sample moved by the sub-pixel step meets other coverage or another depth; 2
-/// where an alpha mask may rightly fall either way; 3, under an environment, where a texture without mipmaps is seen from so far that the
-/// step spans half a texel; 4 where the rules promise nothing), `mirrored`, and bound.A of the coverage. Under an image also
-/// standard_error.R .G .B of the radiance, of which the bound holds five. At an excluded pixel the bound still holds every value seen at
-/// the corners of the step. `mirrored` is 1 where N.V <= 0 mirrored V in a lobe (README, "How a verdict is reached"), which other viewers
-/// may treat otherwise. Deterministic whatever the number of threads. Throws scene::Error, std::runtime_error if Embree cannot work.
+/// rasterisation may rightly show another surface or none: a sample moved by the sub-pixel step meets other coverage or another depth, or
+/// a triangle seen edge on of which the rules promise nothing; 2 where an alpha mask may rightly fall either way; 3, under an environment,
+/// where a texture without mipmaps is seen from so far that the step spans half a texel; 4 where the rules promise nothing), `mirrored`,
+/// and bound.A of the coverage. Under an image also standard_error.R .G .B of the radiance, of which the bound holds five. At an excluded
+/// pixel the bound still holds every value seen at the corners of the step. `mirrored` is 1 where N.V <= 0 mirrored V in a lobe (README,
+/// "How a verdict is reached"), which other viewers may treat otherwise. Deterministic whatever the number of threads. Throws scene::Error,
+/// std::runtime_error if Embree cannot work.
 image::Image render(const scene::Scene& scene, const Settings& settings);
 
 /// The factors a term of the model is multiplied by, 1 each by default: what a report varies to say which term a viewer has wrong.

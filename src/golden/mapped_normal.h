@@ -17,16 +17,16 @@ struct MappedNormal {
 /// Of floats: what is shorter has no direction.
 inline constexpr double smallest_length_squared = 1e-30;
 
-/// The unit vector along v, `otherwise` where v certainly has no direction, and no bound where it may have none.
-template <class Precision>
-Vec3<number::Bounded<Precision>> unit_or(const Vec3<number::Bounded<Precision>>& v, const Vec3<number::Bounded<Precision>>& otherwise) {
+/// The unit vector along v, what `otherwise` gives where v certainly has no direction, and no bound where it may have none.
+template <class Precision, class Otherwise>
+Vec3<number::Bounded<Precision>> unit_or(const Vec3<number::Bounded<Precision>>& v, const Otherwise& otherwise) {
   using B = number::Bounded<Precision>;
   const B squared = dot(v, v);
   if (squared.is_bounded() && squared.range().lower > smallest_length_squared) {
     return v * inversesqrt(squared);
   }
   if (squared.is_bounded() && squared.range().upper <= smallest_length_squared) {
-    return otherwise;
+    return otherwise();
   }
   const B none = B::unbounded(0.0);
   return {none, none, none};
@@ -36,9 +36,9 @@ Vec3<number::Bounded<Precision>> unit_or(const Vec3<number::Bounded<Precision>>&
 template <class Real>
 Vec3<Real> bent(const MappedNormal<Real>& m) {
   const auto coded = [](const Real& x) { return x * Real(2) - Real(1); };
-  const Vec3<Real> up{Real(0.0), Real(0.0), Real(1)};
+  const auto up = [] { return Vec3<Real>{Real(0.0), Real(0.0), Real(1)}; };
   const Vec3<Real> n = unit_or(Vec3<Real>{coded(m.code.x) * m.scale, coded(m.code.y) * m.scale, coded(m.code.z)}, up);
-  return unit_or(m.tangent * n.x + m.bitangent * n.y + m.normal * n.z, m.normal) * m.side;
+  return unit_or(m.tangent * n.x + m.bitangent * n.y + m.normal * n.z, [&m] { return m.normal; }) * m.side;
 }
 
 }  // namespace sheen::golden

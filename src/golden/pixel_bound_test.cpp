@@ -1,8 +1,6 @@
 // What a conforming driver and shader may draw stays inside a pixel's bound: samples anywhere within the step, every operation off by what
 // GLSL ES grants it.
 
-#include "golden/pixel_bound.h"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "golden/albedo_reader.h"
+#include "golden/bounded_samples.h"
 #include "golden/shade.h"
 #include "golden/test_scenes.h"
 #include "number/perturbed_test.h"
@@ -56,7 +55,10 @@ struct AlbedoReader<number::test::Perturbed<Precision>> {
   static P sheen(const SheenAlbedo& albedo, const P& cosine, const P& roughness) {
     return P((*albedo.interpolant)(cosine.value(), roughness.value()));
   }
-  static bool is_smaller_for_light(const P&, const P&) { return false; }
+  template <class Read>
+  static P for_light(const P&, const P&, const P&, const Read& read) {
+    return read();
+  }
   static brdf::LobeAlbedo<P> ggx(const albedo::GgxInterpolant&, const P&, const P&) { return {}; }
   static brdf::LobeAlbedo<P> ggx_average(const albedo::GgxInterpolant&, const P&) { return {}; }
 };

@@ -254,9 +254,8 @@ class Shading {
     const Color irradiance = light.irradiance * below_;
     if (sheen_) {
       const bool needs_e_l = sheen_->two_directions() || wants_e_l;
-      const Real e_l = !needs_e_l                                                         ? Real(0)
-                       : AlbedoReader<Real>::is_smaller_for_light(n_dot_l, lobe_.n_dot_v) ? sheen_->e_v()
-                                                                                          : sheen_->e_l(lit, n_dot_l);
+      const auto read = [&] { return sheen_->e_l(lit, n_dot_l); };
+      const Real e_l = needs_e_l ? AlbedoReader<Real>::for_light(sheen_->e_v(), n_dot_l, lobe_.n_dot_v, read) : Real(0);
       part.e_l = select(lit, e_l, Real(0));
       const Lobe d = sheen_->lobe().distribution(half.n_dot_h, half.sin2_theta_h) * Lobe(factors.distribution);
       const Lobe v = sheen_->lobe().visibility_times_n_dot_l(As<Lobe>::number(n_dot_l)) * Lobe(factors.visibility);

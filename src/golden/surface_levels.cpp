@@ -11,6 +11,9 @@ namespace sheen::golden {
 
 namespace {
 
+constexpr double largest_angle = 0.01;  // between the normals of two neighbours
+constexpr int most_halvings = 10;       // of what lies between two corners: half a turn needs 9, if the map keeps its length
+
 // Both ends and multiples of `spacing`.
 std::vector<double> spaced(const LodInterval& range, double spacing) {
   std::vector<double> levels{range.low};
@@ -40,23 +43,36 @@ std::vector<double> levels_within(const LodInterval& range) {
   return spaced(range, 0.25);
 }
 
-// The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes.
+// The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes. Wider by what a shader that takes
+// log2 of the coordinates' differences is off: two roundings of the coordinates, three more of the length and 4 ulp or 2^-21 of the
+// logarithm; and by what the snapping of vertices stretches a triangle by, whose weights change the faster the smaller it is.
 LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const Ray& ray) const {
+  constexpr double epsilon = 0x1p-23;
   const glm::dvec2 size = slot.texture->size();
   const double last = std::log2(std::max(size.x, size.y)) + 1.0;
   glm::dvec2 texels[9];
   bool beyond = false;
+  double stretch = 8.0 * epsilon;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      texels[3 * row + column] = texcoord(slot, hit, weights_beside(hit, ray, column - 1, row - 1, beyond)) * size;
+      const glm::dvec3 weights = weights_beside(hit, ray, column - 1, row - 1, beyond);
+      const glm::dvec3 change = glm::abs(weights - hit.weights);
+      stretch = std::max(stretch, 2.0 * step_ * (change.x + change.y + change.z));
+      texels[3 * row + column] = texcoord(slot, hit, weights) * size;
     }
   }
-  if (beyond) {
+  if (beyond || !(stretch < 1.0)) {
     return {-1.0, last};
   }
   const LodRange range = lod_range(texels);
-  const double low = std::clamp(range.lowest, -1.0, last);
-  return {low, std::clamp(range.highest, low, last)};
+  const glm::dvec2 off = 2.0 * coordinate_rounding(slot, hit) * size;
+  const auto widened = [&](double lod, double side) {
+    const double spanned = std::exp2(lod) * (1.0 + side * stretch) + side * (off.x + off.y);
+    const double level = spanned > 0.0 ? std::log2(spanned) : -1.0;
+    return level + side * std::max(4.0 * epsilon * std::abs(level), 0x1p-21);
+  };
+  const double low = std::clamp(widened(range.lowest, -1.0), -1.0, last);
+  return {low, std::clamp(widened(range.highest, 1.0), low, last)};
 }
 
 std::optional<LodInterval> SurfaceReader::lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const {
@@ -95,17 +111,22 @@ std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray,
     finer.push_back(level);
     before = after;
   };
-  constexpr double largest_angle = 0.01;
-  constexpr double most = 256.0;  // between two whole levels: half a turn would need more
   for (std::size_t i = 1; i < levels.size(); ++i) {
     const glm::dvec3 after = normal_at(levels[i]);
-    const double angle = std::atan2(glm::length(glm::cross(before, after)), glm::dot(before, after));
-    const double steps = std::clamp(std::ceil(angle / largest_angle), 1.0, most);
-    for (double step = 1.0; step < steps; step += 1.0) {
-      const double level = levels[i - 1] + (levels[i] - levels[i - 1]) * step / steps;
-      add(level, normal_at(level));
-    }
-    add(levels[i], after);
+    // Halved until the normals are close; a map that shortens toward its coarser levels turns faster at one end.
+    const auto reach = [&](const auto& self, double low, const glm::dvec3& at_low, double high, const glm::dvec3& at_high,
+                           int depth) -> void {
+      const double angle = std::atan2(glm::length(glm::cross(at_low, at_high)), glm::dot(at_low, at_high));
+      if (angle > largest_angle && depth < most_halvings) {
+        const double middle = 0.5 * (low + high);
+        const glm::dvec3 at_middle = normal_at(middle);
+        self(self, low, at_low, middle, at_middle, depth + 1);
+        self(self, middle, at_middle, high, at_high, depth + 1);
+      } else {
+        add(high, at_high);
+      }
+    };
+    reach(reach, levels[i - 1], before, levels[i], after, 0);
   }
   return finer;
 }

@@ -69,6 +69,12 @@ void extremes(const glm::dvec2 (&texels)[9], int along, int across, glm::dvec2& 
   }
 }
 
+// Section 3.8.10.3: where a smooth magnification meets an unfiltered mipmapped minification, the switch lies half a level higher.
+double magnified_up_to(const scene::Sampler& s) {
+  using scene::Filter;
+  return s.mag == Filter::Linear && s.min == Filter::Nearest && s.mip != scene::MipFilter::None ? 0.5 : 0.0;
+}
+
 }  // namespace
 
 const TextureLevels::Extent& TextureLevels::extent(std::size_t level) const {
@@ -112,16 +118,6 @@ Texture TextureStore::get(int texture, scene::ColorSpace space) {
   }
   return {levels, source.sampler};
 }
-
-namespace {
-
-// Section 3.8.10.3: where a smooth magnification meets an unfiltered mipmapped minification, the switch lies half a level higher.
-double magnified_up_to(const scene::Sampler& s) {
-  using scene::Filter;
-  return s.mag == Filter::Linear && s.min == Filter::Nearest && s.mip != scene::MipFilter::None ? 0.5 : 0.0;
-}
-
-}  // namespace
 
 std::optional<Mixture> mixture(const Texture& texture, double lambda) {
   const double first = std::floor(lambda);

@@ -19,8 +19,8 @@ constexpr double epsilon = number::epsilon<number::Highp>;
 constexpr double filter_roundings = 29;
 /// Of a coordinate in texels: the product with the size, and the two differences that make a weight of it.
 constexpr double coordinate_roundings = 3;
-/// A box of more texels than this along an axis is no longer looked at edge by edge.
-constexpr double most_texels = 16;
+/// A box of more texels than this along an axis is no longer looked at edge by edge, of which there are two a texel: a thousand samples.
+constexpr double widest_box = 16;
 
 // Coordinates along one axis to look at: both ends, and the edges and bends between them, which lie at halves of a texel.
 void add_places(double from, double to, double texels, std::vector<double>& places) {
@@ -38,7 +38,7 @@ TextureBox::TextureBox(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach)
 
 bool TextureBox::is_wide(double level) const {
   const scene::Texels& texels = (*texture_.levels)[static_cast<std::size_t>(level)];
-  return !(2.0 * off_.x * texels.width <= most_texels && 2.0 * off_.y * texels.height <= most_texels);
+  return !(2.0 * off_.x * texels.width <= widest_box && 2.0 * off_.y * texels.height <= widest_box);
 }
 
 // Whatever the coordinates: of the two levels that may be read, everything.

@@ -63,6 +63,30 @@ TEST(TextureBox, SeesATexelThatTheBoxEncloses) {
   EXPECT_NEAR(TextureBox(texture, {3.5 / 8, 0.5}, {1.2 / 8, 0.1})(-1.0).radius.x, 1.0, 1e-5);
 }
 
+TEST(TextureBox, GivesTheSameWhateverItWasAskedBefore) {
+  const scene::Scene s =
+      noise({scene::Wrap::Repeat, scene::Wrap::Repeat, scene::Filter::Linear, scene::Filter::Linear, scene::MipFilter::Linear});
+  const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Linear);
+  TextureBox box(texture, {0.3, 0.6}, {0.01, 0.02});
+  for (const double lambda : {0.4, 1.7, 0.4, -1.0, 2.0, 1.2, 9.0}) {
+    const Spread anew = TextureBox(texture, {0.3, 0.6}, {0.01, 0.02})(lambda);
+    const Spread again = box(lambda);
+    EXPECT_EQ(again.value, anew.value) << lambda;
+    EXPECT_EQ(again.radius, anew.radius) << lambda;
+  }
+}
+
+// A box over many texels of level 1 too, whose one bright texel level 0 would not show as bright.
+TEST(TextureBox, HoldsBothLevelsThatAreMixedOverAWideBox) {
+  scene::Scene s;
+  test::add_texture(
+      s, test::picture(512, 512, [](int x, int y) { return glm::ivec4(glm::ivec3(x / 2 == 100 && y / 2 == 100 ? 255 : 0), 255); }));
+  const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Linear);
+  const Spread spread = TextureBox(texture, {0.7, 0.7}, {0.2, 0.2})(3.5);
+  EXPECT_GE(spread.value.x + spread.radius.x, 1.0 / 16.0) << "level 3 has the mean of 64 texels, 4 of them bright";
+  EXPECT_LE(spread.value.x + spread.radius.x, 1.0 / 8.0);
+}
+
 TEST(TextureBox, HoldsAllOfATextureWhoseTexelsAreTooMany) {
   scene::Scene s;
   test::add_texture(s, test::picture(512, 4, [](int x, int) { return glm::ivec4(x == 300 ? 255 : 51, 102, 102, 255); }),

@@ -124,7 +124,7 @@ bool Tile::add_nudged() {
         add_sample(centre.seen, centre.ray, {std::nullopt, 0, nudge}, &hit);
       }
     }
-    return reach.texels <= most_texels;
+    return reach.texels <= most_texels_of_corners;
   };
   bool sampled = !centre.seen.nearest || add(*centre.seen.nearest);
   for (const Hit& hit : centre.seen.blended) {
@@ -140,7 +140,7 @@ Tile::Plan Tile::plan(int x, int y) {
   frame_.tracer.trace(centre.ray, bounds, centre.seen);
   const auto groups = static_cast<std::uint32_t>(lod_group_ends_.size());
   const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(frame_.settings.view.width) + static_cast<std::uint64_t>(x);
-  const Exclusion tied = centre.seen.tie ? Exclusion::Surface : Exclusion::None;
+  const Exclusion tied = centre.seen.tie || centre.seen.ambiguous ? Exclusion::Surface : Exclusion::None;
   Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, tied, 0, 0};
   if (!bounds) {
     add_sample(centre.seen, centre.ray);
@@ -249,13 +249,14 @@ Pixel Tile::finish(const Plan& plan) const {
   pixel.radiance = full.radiance;
   pixel.coverage = centre.coverage;
   pixel.standard_error = full.standard_error;
-  const glm::dvec4 open = (bounded_ ? enclosed(plan).deviation : glm::dvec4(0.0)) + shift + lod;
+  const Enclosed bounded = bounded_ ? enclosed(plan) : Enclosed{};
+  const glm::dvec4 open = bounded.deviation + shift + lod;
   pixel.bound = glm::dvec3(open) + centre.lookup + standard_errors * full.standard_error;
   pixel.coverage_bound = shows_background() ? 0.0 : open.w;
   pixel.excluded = plan.excluded;
   const bool promised = std::isfinite(open.x) && std::isfinite(open.y) && std::isfinite(open.z) && std::isfinite(open.w);
   if (!promised && pixel.excluded == Exclusion::None) {
-    pixel.excluded = Exclusion::Rules;
+    pixel.excluded = bounded.edge_on ? Exclusion::Surface : Exclusion::Rules;
   }
   pixel.mirrored = centre.mirrored;
   return pixel;

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "golden/bounded_samples.h"
 #include "golden/environment_shade.h"
 #include "golden/frame.h"
-#include "golden/pixel_bound.h"
 #include "golden/shade.h"
 
 namespace sheen::golden {
@@ -16,8 +16,8 @@ namespace sheen::golden {
 /// Why a pixel is left out of comparisons: what the rules leave open there is no matter of shading.
 enum class Exclusion {
   None = 0,
-  Surface = 1,  ///< another surface, or none, within the step
-  Mask = 2,     ///< an alpha mask that a moved sample or another level of detail decides otherwise
+  Surface = 1,  ///< another surface, or none, within the step; or one seen edge on there, of which the rules promise nothing
+  Mask = 2,     ///< an alpha mask that a conforming driver may decide otherwise
   Texels = 3,   ///< under an environment, a texture without mipmaps whose texel a moved sample may choose freely
   Rules = 4,    ///< the rules of GLSL ES promise nothing for an operation there
 };
@@ -35,7 +35,7 @@ struct Pixel {
 
 /// Under an environment: texels of a texture without mipmaps by which a driver's choice may be off, for the corners of the step, which
 /// alone are looked at there, to see all that it may find.
-inline constexpr double most_texels = 0.5;
+inline constexpr double most_texels_of_corners = 0.5;
 /// Of texture coordinates, as LodChoice has them.
 inline const std::array<glm::dvec2, 4> nudges{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
 

@@ -75,7 +75,7 @@ void Tile::look(double step, Plan& plan) {
     Look& look = looks_[corner + 1];
     look.ray = frame_.rays.through(centre.ray.x + dx, centre.ray.y + dy);
     frame_.tracer.trace(look.ray, true, look.seen);
-    if (look.seen.tie || interrupted(centre.ray, centre.seen, look.ray, look.seen)) {
+    if (look.seen.tie || look.seen.ambiguous || interrupted(centre.ray, centre.seen, look.ray, look.seen)) {
       plan.excluded = Exclusion::Surface;
     }
   }
@@ -102,7 +102,10 @@ Enclosed Tile::enclosed(const Plan& plan) const {
   Enclosed all = bounded_->at(plan.first_bound);
   for (std::size_t i = plan.first_bound + 1; i < plan.last_bound; ++i) {
     const Enclosed other = bounded_->at(i);
-    all.deviation = glm::max(all.deviation, glm::abs(other.value - all.value) + other.deviation);
+    // Where nothing is promised the value may be NaN.
+    const glm::dvec4 off = other.is_bounded() ? glm::abs(other.value - all.value) + other.deviation : other.deviation;
+    all.deviation = glm::max(all.deviation, off);
+    all.edge_on = all.edge_on || other.edge_on;
   }
   return all;
 }
@@ -125,9 +128,8 @@ bool Tile::mask_uncertain(double step) const {
       judged.push_back(hit.triangle);
       Seen alone;
       alone.nearest = hit;
-      const double cutoff = frame_.geometry.placed(hit.triangle).material->alpha_cutoff;
-      const Bound opacity = bound_->opacity(*extended(alone, ray).nearest, ray, step);
-      if (!opacity.is_bounded() || (opacity.range().lower < cutoff && opacity.range().upper >= cutoff)) {
+      const auto cutoff = static_cast<float>(frame_.geometry.placed(hit.triangle).material->alpha_cutoff);  // as a shader is given it
+      if ((bound_->opacity(*extended(alone, ray).nearest, ray, step) >= Bound(cutoff)).is_either()) {
         return true;
       }
     }

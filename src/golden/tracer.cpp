@@ -55,6 +55,7 @@ Hit pulled_inside(Hit hit) {
 void Seen::clear() {
   nearest.reset();
   tie.reset();
+  ambiguous = false;
   blended.clear();
   masked.clear();
 }
@@ -88,6 +89,8 @@ struct Tracer::Impl {
   void build();
   double depth_tolerance(double t) const;
   std::optional<Hit> visible(std::uint32_t triangle, const Ray& ray) const;
+  bool is_clipped(const Hit& hit) const;
+  bool is_at_clip_plane(const Hit& hit) const;
   bool kept_by_mask(const Hit& hit, Query& query) const;
   std::optional<Hit> neighbour(const Hit& hit, const Ray& ray) const;
   void settle_nearest(std::vector<Hit>& candidates, const Ray& ray, Seen& seen) const;
@@ -103,6 +106,7 @@ struct Tracer::Impl::Query {
   bool with_masked;
   double limit;  // beyond it nothing matters
   double best;   // depth of the nearest opaque hit so far
+  double nearest_at_clip_plane;
   std::vector<Hit> candidates;
 };
 
@@ -121,13 +125,17 @@ double Tracer::Impl::depth_tolerance(double t) const {
 
 std::optional<Hit> Tracer::Impl::visible(std::uint32_t triangle, const Ray& ray) const {
   std::optional<Hit> hit = geometry.meet(triangle, ray);
-  if (!hit || (!hit->front && !geometry.placed(triangle).material->double_sided)) {
-    return std::nullopt;
-  }
-  if (!(hit->t >= rays.camera().znear && hit->t <= rays.camera().zfar)) {
-    return std::nullopt;
-  }
-  return hit;
+  const bool shows = hit && (hit->front || geometry.placed(triangle).material->double_sided);
+  return shows ? hit : std::nullopt;
+}
+
+bool Tracer::Impl::is_clipped(const Hit& hit) const {
+  return !(hit.t >= rays.camera().znear && hit.t <= rays.camera().zfar);
+}
+
+bool Tracer::Impl::is_at_clip_plane(const Hit& hit) const {
+  const double tolerance = depth_tolerance(hit.t);
+  return std::abs(hit.t - rays.camera().znear) <= tolerance || std::abs(hit.t - rays.camera().zfar) <= tolerance;
 }
 
 bool Tracer::Impl::kept_by_mask(const Hit& hit, Query& query) const {
@@ -146,7 +154,10 @@ void Tracer::Impl::filter(const RTCFilterFunctionNArguments* args) {
   const Impl& impl = *query.impl;
   const std::uint32_t triangle = RTCHitN_primID(args->hit, args->N, 0);
   const std::optional<Hit> hit = impl.visible(triangle, *query.ray);
-  if (!hit || hit->t > query.limit) {
+  if (hit && impl.is_at_clip_plane(*hit)) {
+    query.nearest_at_clip_plane = std::min(query.nearest_at_clip_plane, hit->t);
+  }
+  if (!hit || impl.is_clipped(*hit) || hit->t > query.limit) {
     return;
   }
   const scene::Material& material = *impl.geometry.placed(triangle).material;
@@ -289,6 +300,9 @@ void Tracer::Impl::settle_blended(const Ray& ray, Seen& seen) const {
     const std::optional<Hit> other = neighbour(hit, ray);
     hit = other ? *other : pulled_inside(hit);
   }
+  seen.ambiguous = std::any_of(seen.blended.begin(), seen.blended.end(), [&](const Hit& h) {
+    return seen.nearest && std::abs(h.t - seen.nearest->t) <= depth_tolerance(seen.nearest->t);
+  });
   const auto hidden = [&](const Hit& h) { return seen.nearest && h.t >= seen.nearest->t; };
   seen.blended.erase(std::remove_if(seen.blended.begin(), seen.blended.end(), hidden), seen.blended.end());
   const auto rank = [&](const Hit& h) { return blend_rank[h.triangle]; };
@@ -327,6 +341,7 @@ void Tracer::trace(const Ray& ray, bool with_masked, Seen& seen) const {
   query.with_masked = with_masked;
   query.limit = impl_->rays.camera().zfar;
   query.best = std::numeric_limits<double>::infinity();
+  query.nearest_at_clip_plane = std::numeric_limits<double>::infinity();
   RTCRayHit cast{};
   const glm::dvec3 origin = ray.origin - impl_->centre;
   cast.ray.org_x = static_cast<float>(origin.x);
@@ -343,6 +358,8 @@ void Tracer::trace(const Ray& ray, bool with_masked, Seen& seen) const {
   rtcIntersect1(impl_->scene.get(), &query.context, &cast);
   impl_->settle_nearest(query.candidates, ray, seen);
   impl_->settle_blended(ray, seen);
+  const bool clip_decides = std::isfinite(query.nearest_at_clip_plane) && (!seen.nearest || query.nearest_at_clip_plane <= seen.nearest->t);
+  seen.ambiguous = seen.ambiguous || clip_decides;
   // Only what is in front was certainly visited, and only that matters.
   std::erase_if(seen.masked, [&](const Hit& hit) { return seen.nearest && hit.t > seen.nearest->t; });
 }

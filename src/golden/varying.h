@@ -24,6 +24,9 @@ class Interpolation {
   /// @param rounding  absolute error of the values, the largest of the three
   Varying operator()(const std::array<double, 3>& at_vertices, double rounding) const;
 
+  /// Whether the triangle is so narrow here, a sliver or seen edge on at a silhouette, that the step reaches beyond all of it.
+  bool is_edge_on() const { return !within_; }
+
  private:
   void add_corners(const Geometry& geometry, const RayGenerator& rays, const Hit& hit);
 

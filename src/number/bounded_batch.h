@@ -52,16 +52,22 @@ class BoundedBatch {
   BatchMask is_unbounded() const { return radius_ == Batch(std::numeric_limits<double>::infinity()); }
   BatchMask is_exact() const { return ((radius_ | shift_x_) | shift_y_) == Batch(0.0); }
 
-  One lane(std::size_t i) const {
+  /// One lane, and into it. Bounded and BoundedBatch keep the same numbers in the same order.
+  /// @tparam Lane  Bounded of this precision, apart or not
+  template <class Lane = One>
+  Lane lane(std::size_t i) const {
+    static_assert(std::is_trivially_copyable_v<Lane> && sizeof(Lane) == sizeof(One));
     std::array<double, numbers> values;
     for (std::size_t n = 0; n < numbers; ++n) std::memcpy(&values.at(n), bytes() + (n * lanes + i) * sizeof(double), sizeof(double));
-    One one;
+    Lane one;
     std::memcpy(static_cast<void*>(&one), values.data(), sizeof(one));
     return one;
   }
-  void set_lane(std::size_t i, const One& one) {
+  template <class Lane>
+  void set_lane(std::size_t i, const Lane& one) {
+    static_assert(std::is_trivially_copyable_v<Lane> && sizeof(Lane) == sizeof(One));
     std::array<double, numbers> values;
-    std::memcpy(values.data(), &one, sizeof(one));
+    std::memcpy(values.data(), static_cast<const void*>(&one), sizeof(one));
     for (std::size_t n = 0; n < numbers; ++n) std::memcpy(bytes() + (n * lanes + i) * sizeof(double), &values.at(n), sizeof(double));
   }
 
@@ -183,7 +189,7 @@ class BoundedBatch {
   using Exact = ExactBatch;
 
   /// The value as an operation without error would have given it, for any precision's batch.
-  auto as_exact() const { return ExactBatch{center_, shift_x_, shift_y_, radius_, lower_, upper_}; }
+  ExactBatch as_exact() const { return {center_, shift_x_, shift_y_, radius_, lower_, upper_}; }
 
   /// Becomes the exact result after the operation's error. @param keeps_sign  correct rounding never passes zero
   void round(const Exact& x, const Error& error, bool keeps_sign) {

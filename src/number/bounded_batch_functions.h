@@ -145,7 +145,7 @@ BoundedBatch<Precision> log1p(const BoundedBatch<Precision>& x) {
   constexpr double flushed = 4 * smallest_normal<Highp>;
   using B = BoundedBatch<Precision>;
   const auto of = [](const auto& one) { return log1p(one); };
-  if (epsilon < Precision >> epsilon<Highp>) {
+  if constexpr (Precision::fraction_bits < Highp::fraction_bits) {
     B out = x;
     out.settle(BatchMask(true), BatchMask(false), of, x);
     return out;

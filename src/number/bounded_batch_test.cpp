@@ -151,6 +151,34 @@ TEST(BoundedBatch, ConvertsLikeBounded) {
   }
 }
 
+// image() takes what xsimd gives for within 2 ulp of double.
+TEST(BoundedBatch, FunctionsOfDoubleAreWithinTwoUlp) {
+  if (!has_batch()) return;
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto check = [](const char* name, const Batch& got, const Batch& x, auto exact) {
+    for (std::size_t i = 0; i < Batch::size; ++i) {
+      const long double truth = exact(static_cast<long double>(x.get(i)));
+      const double ulp = std::nextafter(std::abs(static_cast<double>(truth)), 1e300) - std::abs(static_cast<double>(truth));
+      EXPECT_LE(std::abs(static_cast<double>(got.get(i) - truth)), 2 * ulp) << name << ' ' << x.get(i);
+    }
+  };
+  for (int i = 0; i < 20000 && !::testing::Test::HasFailure(); ++i) {
+    const auto four = [&](auto f) { return Batch{f(), f(), f(), f()}; };
+    const Batch exponent = four([&] { return 170 * uniform(random) - 85; });
+    const Batch positive = four([&] { return std::exp2(250 * uniform(random) - 125); });
+    const Batch near_one = four([&] { return 0.5 + 1.5 * uniform(random); });
+    const Batch small = four([&] { return -0.25 * std::exp2(-30 * uniform(random)); });
+    check("exp", xsimd::exp(exponent), exponent, [](long double x) { return std::exp(x); });
+    check("exp2", xsimd::exp2(exponent), exponent, [](long double x) { return std::exp2(x); });
+    check("log", xsimd::log(positive), positive, [](long double x) { return std::log(x); });
+    check("log", xsimd::log(near_one), near_one, [](long double x) { return std::log(x); });
+    check("log2", xsimd::log2(positive), positive, [](long double x) { return std::log2(x); });
+    check("log2", xsimd::log2(near_one), near_one, [](long double x) { return std::log2(x); });
+    check("log1p", xsimd::log1p(small), small, [](long double x) { return std::log1p(x); });
+  }
+}
+
 TEST(TruthBatch, ChoosesOnlyWhatIsAsked) {
   if (!has_batch()) return;
   using B = BoundedBatch<Highp>;

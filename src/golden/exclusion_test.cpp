@@ -1,0 +1,89 @@
+// Which pixels a golden leaves out of verdicts, and why.
+
+#include <gtest/gtest.h>
+
+#include "golden/frame.h"
+#include "golden/test_scenes.h"
+
+namespace sheen::golden {
+namespace {
+
+/// How many pixels of the golden's inside are left out for a reason, of 16 x 16 of which the scene covers all.
+int excluded(const scene::Scene& s, float reason) {
+  constexpr int size = 16;
+  const image::Image golden = render(s, test::settings_for(size, size, true));
+  const int channel = golden.channel("excluded");
+  int count = 0;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      count += golden.at(x, y, channel) == reason ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+scene::Scene plane(const scene::Material& m, double z = 0.0) {
+  return test::scene_with(test::square(2.0, z), m, test::orthographic_at(5.0, 1.0), {test::directional({0.0, 0.0, 1.0})});
+}
+
+scene::Material mask(double opacity, double cutoff) {
+  scene::Material m = test::lambertian({0.5, 0.5, 0.5, opacity});
+  m.alpha_mode = scene::AlphaMode::Mask;
+  m.alpha_cutoff = cutoff;
+  return m;
+}
+
+TEST(Exclusion, AMaskOfOneOpacityIsCertainEvenAtTheCutoff) {
+  EXPECT_EQ(excluded(plane(mask(0.5, 0.5)), 2.0F), 0);
+  EXPECT_EQ(excluded(plane(mask(0.3, 0.3)), 2.0F), 0) << "both reach the shader as the same float";
+  EXPECT_EQ(excluded(plane(mask(0.7, 0.3)), 2.0F), 0);
+}
+
+TEST(Exclusion, AMaskIsUncertainWhereItsTextureCrossesTheCutoff) {
+  // Opacity rises from 0 to 1 across four pixels a texel; the step is 1/512 of a pixel.
+  scene::Scene s = plane(mask(1.0, 0.5));
+  s.materials[0].base_color_texture = test::add_texture(
+      s, test::picture(8, 8, [](int x, int) { return glm::ivec4(255, 255, 255, x < 4 ? 0 : 255); }),
+      {scene::Wrap::ClampToEdge, scene::Wrap::ClampToEdge, scene::Filter::Linear, scene::Filter::Linear, scene::MipFilter::None});
+  EXPECT_EQ(excluded(s, 1.0F) + excluded(s, 2.0F), 0) << "no pixel centre lies on the cut";
+  s.cameras[0].world_from_camera = glm::translate(glm::dmat4(1.0), glm::dvec3(0.5 * 2.0 / 16, 0.0, 5.0));
+  EXPECT_EQ(excluded(s, 1.0F) + excluded(s, 2.0F), 16) << "one column's centres do";
+}
+
+TEST(Exclusion, AMaskIsUncertainWhereALevelOfDetailDecides) {
+  // Minified twice; level 0 has stripes of 0 and 1, coarser ones a half.
+  scene::Scene s = plane(mask(1.0, 0.4));
+  s.materials[0].base_color_texture =
+      test::add_texture(s, test::picture(64, 64, [](int x, int) { return glm::ivec4(255, 255, 255, x % 2 * 255); }));
+  s.materials[0].base_color_texture.transform = glm::dmat3(0.75, 0.0, 0.0, 0.0, 0.4, 0.0, 0.0, 0.0, 1.0);
+  EXPECT_GT(excluded(s, 2.0F), 20);
+}
+
+TEST(Exclusion, ABlendedSurfaceAtTheDepthOfAnOpaqueOne) {
+  scene::Material glass = test::lambertian({0.9, 0.1, 0.1, 0.5});
+  glass.alpha_mode = scene::AlphaMode::Blend;
+  scene::Scene s = plane(test::lambertian({0.2, 0.2, 0.2, 1.0}));
+  test::add(s, test::square(2.0), glass);
+  // No centre lies on a square's diagonal.
+  s.cameras[0].world_from_camera = glm::translate(glm::dmat4(1.0), glm::dvec3(0.03, 0.01, 5.0));
+  EXPECT_EQ(excluded(s, 1.0F), 256);
+  s.instances[1].world_from_local = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 0.1));
+  EXPECT_EQ(excluded(s, 1.0F), 0);
+}
+
+TEST(Exclusion, ASurfaceOnAClipPlane) {
+  scene::Scene s = plane(test::lambertian({0.2, 0.2, 0.2, 1.0}));
+  s.cameras[0].zfar = 5.0;
+  EXPECT_EQ(excluded(s, 1.0F), 256) << "on the far plane";
+  s.cameras[0].zfar = 6.0;
+  EXPECT_EQ(excluded(s, 1.0F), 0);
+  s.cameras[0].znear = 5.0;
+  EXPECT_EQ(excluded(s, 1.0F), 256) << "on the near plane";
+  s.cameras[0].znear = 1.0;
+  s.cameras[0].zfar = 7.0;
+  test::add(s, test::square(2.0, -2.0), test::lambertian({0.9, 0.9, 0.9, 1.0}));
+  EXPECT_EQ(excluded(s, 1.0F), 0) << "what lies on the far plane is hidden";
+}
+
+}  // namespace
+}  // namespace sheen::golden
