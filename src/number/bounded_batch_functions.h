@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "number/bounded_batch.h"
+#include "number/bounded_batch_conversion.h"
 #include "number/bounded_functions.h"
 
 // The built-in functions of number::BoundedBatch. Lanes of exact arguments, and of such as a function is not defined for, are handed to
