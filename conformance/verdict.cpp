@@ -244,7 +244,7 @@ void decide(const VerdictRules& rules, Verdict& verdict) {
                       " its bound";
   } else if (covered == 0) {
     verdict.message = "neither image covers a pixel";
-  } else if (verdict.compared_pixels == 0 && verdict.excluded_pixels > unpromised) {
+  } else if (verdict.compared_pixels == 0 && unpromised == 0) {
     verdict.message = "every covered pixel is left out of the comparison: " + too_many_excluded(verdict, covered);
   } else if (static_cast<double>(verdict.excluded_pixels - unpromised) > rules.most_excluded * static_cast<double>(covered)) {
     verdict.message = too_many_excluded(verdict, covered);

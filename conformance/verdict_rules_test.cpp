@@ -125,6 +125,16 @@ TEST_F(UnpromisedTest, PixelsAreLeftOutHoweverManyIfTheRulesSaySo) {
   }
 }
 
+TEST_F(UnpromisedTest, PixelsMayBeAllThatIsLeftBesideAFewEdges) {
+  rules_.leave_out_unpromised = true;
+  leave_unpromised(10);
+  golden_.at(7, 1, 7) = 1.0F;
+  golden_.at(7, 2, 7) = 1.0F;
+  EXPECT_EQ(verdict().status, Status::Pass) << verdict().message;
+  golden_.at(7, 3, 7) = 1.0F;
+  EXPECT_EQ(verdict().status, Status::Invalid) << "three of a hundred are too many";
+}
+
 TEST_F(UnpromisedTest, PixelsMustBeFiniteAndNotNegative) {
   rules_.leave_out_unpromised = true;
   leave_unpromised(5);
