@@ -10,8 +10,10 @@ uniform int u_environment_samples;
 // Below it the sheen's lobe is drawn from by the other ways alone: it is a thin rim of next to no energy.
 const highp float SMALLEST_DRAWN_SHEEN_ROUGHNESS = 1e-3;
 
-// Directions of the image for each one of a lobe: half of them lie below the surface. Found best by the error at 4,096 directions.
-const int IMAGE_TIMES = 2;
+// Which share of the directions a way draws was found best by the error at 4,096 of them: what its lobe reflects, about, but never
+// nothing, and the image as much as all lobes.
+const float SMALLEST_WEIGHT = 0.02;
+const float WEIGHT_OF_WHITE_SHEEN = 0.15;
 
 // Ways to draw a direction.
 const int DRAW_COSINE = 0;
@@ -145,44 +147,67 @@ vec3 drawn_direction(Surface surface, int way, int i) {
     return draw_cosine(surface.view, u);
 }
 
-int times(Surface surface, int way) {
-#ifdef ENVIRONMENT_IMAGE
-    if (way == DRAW_IMAGE) return IMAGE_TIMES;
+// What a lobe reflects of light from everywhere, about, below 1.
+float weight(Surface surface, int way) {
+    float under_coat = 1.0;
+#ifdef CLEARCOAT
+    if (way == DRAW_COAT) return surface.k;
+    under_coat = 1.0 - surface.k;
 #endif
-    return draws(surface, way) ? 1 : 0;
+#ifdef SHEEN
+    if (way == DRAW_SHEEN || way == DRAW_RIM) return under_coat * WEIGHT_OF_WHITE_SHEEN * max3(surface.sheen.sheenColor);
+#endif
+    if (way == DRAW_GGX) return under_coat * max3(base_mirror(surface.base, surface.view.NdotV));
+    return under_coat * max3(surface.base.baseColor) * (1.0 - surface.base.metallic);
+}
+
+// How many directions each way draws; together about u_environment_samples.
+int[DRAWS] directions_by_way(Surface surface) {
+    float weights[DRAWS];
+    float sum = 0.0;
+    for (int way = 0; way < DRAWS; ++way) {
+        weights[way] = draws(surface, way) ? max(weight(surface, way), SMALLEST_WEIGHT) : 0.0;
+#ifdef ENVIRONMENT_IMAGE
+        if (way == DRAW_IMAGE) weights[way] = sum;
+#endif
+        sum += weights[way];
+    }
+    int counts[DRAWS];
+    for (int way = 0; way < DRAWS; ++way) {
+        counts[way] = draws(surface, way) ? max(int(float(u_environment_samples) * weights[way] / sum), 1) : 0;
+    }
+    return counts;
 }
 
 // The sum of the densities of all ways, each as many times as it is drawn from.
-float density_of_all(Surface surface, vec3 L) {
-    float sum = max(dot(surface.view.N, L), 0.0) / PI;
-    if (draws(surface, DRAW_GGX)) sum += density_ggx(surface.view, surface.base.alpha, L);
+float density_of_all(Surface surface, vec3 L, int counts[DRAWS]) {
+    float sum = float(counts[DRAW_COSINE]) * max(dot(surface.view.N, L), 0.0) / PI;
+    if (counts[DRAW_GGX] > 0) sum += float(counts[DRAW_GGX]) * density_ggx(surface.view, surface.base.alpha, L);
 #ifdef CLEARCOAT
-    if (draws(surface, DRAW_COAT)) sum += density_ggx(surface.coat_view, surface.clearcoat_alpha, L);
+    if (counts[DRAW_COAT] > 0) sum += float(counts[DRAW_COAT]) * density_ggx(surface.coat_view, surface.clearcoat_alpha, L);
 #endif
 #ifdef SHEEN
-    if (draws(surface, DRAW_SHEEN)) {
-        sum += density_sheen(surface.view, surface.sheen.sheenRoughness, L) + density_rim(surface.view, surface.sheen.sheenRoughness, L);
+    if (counts[DRAW_SHEEN] > 0) {
+        sum += float(counts[DRAW_SHEEN]) * density_sheen(surface.view, surface.sheen.sheenRoughness, L);
+        sum += float(counts[DRAW_RIM]) * density_rim(surface.view, surface.sheen.sheenRoughness, L);
     }
 #endif
 #ifdef ENVIRONMENT_IMAGE
-    sum += float(IMAGE_TIMES) * density_image(L);
+    sum += float(counts[DRAW_IMAGE]) * density_image(L);
 #endif
     return sum;
 }
 
 vec3 environment_light(Surface surface) {
-    int all = 0;
-    for (int way = 0; way < DRAWS; ++way) all += times(surface, way);
-    int count = max(u_environment_samples / all, 1);
     vec3 radiance = vec3(0.0);
+    int counts[DRAWS] = directions_by_way(surface);
     for (int way = 0; way < DRAWS; ++way) {
-        for (int i = 0; i < count * times(surface, way); ++i) {
+        for (int i = 0; i < counts[way]; ++i) {
             vec3 L = drawn_direction(surface, way, i);
-            float density = density_of_all(surface, L);
+            float density = density_of_all(surface, L, counts);
             if (density > 0.0) radiance += reflected_light(surface, L) * environment_radiance(L) / density;
         }
     }
-    radiance /= float(count);
 
     // What mirrors send, which no drawn direction meets.
     LayerView view = surface.view;

@@ -92,7 +92,7 @@ std::vector<Mutant> albedo_scale_mutants() {
        .first = {{"furnace", "white_lambert.full.*.sheen_100"}},
        .edits = {{"layers.glsl", "struct Surface {", "bool scaling = true;\n\nstruct Surface {"},
                  {"layers.glsl", scaled, std::string("if (scaling) ") + scaled},
-                 {"environment_sampled.glsl", "    int all = 0;", "    scaling = false;\n    int all = 0;"}}},
+                 {"environment_sampled.glsl", "    int counts[DRAWS] =", "    scaling = false;\n    int counts[DRAWS] ="}}},
       {.name = "scaling.of_emission_too",
        .why = "the whole shaded colour is scaled, as the coat's mix would",
        .first = {{"core", "emission.under_sheen"}},

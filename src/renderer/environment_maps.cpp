@@ -156,8 +156,7 @@ GLuint EnvironmentMaps::points(const scene::Environment& environment, int count,
     if (environment.is_image()) {
       sampling.emplace(environment);
     }
-    // However few are asked for, shaders/environment_sampled.glsl draws one of each lobe and two of the image.
-    const PointRows rows = point_rows(std::max(count, 2), seed, sampling ? &*sampling : nullptr);
+    const PointRows rows = point_rows(count, seed, sampling ? &*sampling : nullptr);
     return upload_floats(context_.gl(), "the points to draw directions with", rows.columns, rows.rows, rows.texels);
   });
 }

@@ -27,13 +27,11 @@ double shift(std::uint64_t seed, double irrational) {
   return turns - std::floor(turns);
 }
 
-// The interval of running sums that holds a share of their total, which becomes how far inside it lies, in [0, 1).
-std::size_t place(const double* ends, std::size_t count, double& share) {
-  const double at = share * ends[count - 1];
-  const auto index = static_cast<std::size_t>(std::upper_bound(ends, ends + count - 1, at) - ends);
-  const double begin = index == 0 ? 0.0 : ends[index - 1];
-  share = ends[index] > begin ? std::clamp((at - begin) / (ends[index] - begin), 0.0, 1.0 - 1e-12) : 0.5;
-  return index;
+// A split of an interval at a share of its weight: whether x in [0, 1) falls into the first part, and where inside its part it lies.
+bool in_first_part(double share, double& x) {
+  const bool first = x < share;
+  x = std::clamp(first ? x / share : (x - share) / (1.0 - share), 0.0, 1.0 - 1e-12);
+  return first;
 }
 
 double around(double x) {
@@ -50,8 +48,9 @@ ImageSampling::ImageSampling(const scene::Environment& environment) : width_(env
     return static_cast<double>(texel.x) + static_cast<double>(texel.y) + static_cast<double>(texel.z);
   };
   // The filter reaches into the neighbours, so they count: 1 2 1 along each axis. Where there is no light at all, none is missed.
-  std::vector<double> sums(w * h);  // running, texel by texel
-  double total = 0.0;
+  std::vector<double> weights;
+  weights.reserve(w * h);
+  sums_.assign((w + 1) * (h + 1), 0.0);
   for (std::size_t y = 0; y < h; ++y) {
     const double sine = std::sin(std::numbers::pi * (static_cast<double>(y) + 0.5) / static_cast<double>(h));
     double row_sum = 0.0;
@@ -60,28 +59,49 @@ ImageSampling::ImageSampling(const scene::Environment& environment) : width_(env
       for (const std::size_t row : {y == 0 ? 0 : y - 1, y, y, y + 1 == h ? y : y + 1}) {
         sum += brightness((x + w - 1) % w, row) + 2.0 * brightness(x, row) + brightness((x + 1) % w, row);
       }
+      weights.push_back(sum * sine);
       row_sum += sum * sine;
-      sums[y * w + x] = row_sum;
+      sums_[(y + 1) * (w + 1) + x + 1] = sums_[y * (w + 1) + x + 1] + row_sum;
     }
-    total += row_sum;
-    row_ends_.push_back(total);
   }
+  const double total = sums_.back();
   const double texels = static_cast<double>(w) * static_cast<double>(h);
   densities_.reserve(w * h);
-  for (std::size_t i = 0; i < w * h; ++i) {
-    const double share = total > 0.0 ? (sums[i] - (i % w == 0 ? 0.0 : sums[i - 1])) / total : 1.0 / texels;
+  for (const double weight : weights) {
+    const double share = total > 0.0 ? weight / total : 1.0 / texels;
     // d omega = 2 pi^2 sin(theta) du dv
     densities_.push_back(static_cast<float>(share * texels / (2.0 * std::numbers::pi * std::numbers::pi)));
   }
-  column_ends_ = std::move(sums);
+}
+
+double ImageSampling::weight(int left, int top, int right, int bottom) const {
+  const auto before = [&](int x, int y) {
+    return sums_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1) + static_cast<std::size_t>(x)];
+  };
+  return (before(right, bottom) - before(left, bottom)) - (before(right, top) - before(left, top));
 }
 
 glm::dvec3 ImageSampling::direction(double u, double v) const {
-  const std::size_t row = place(row_ends_.data(), row_ends_.size(), v);
-  const auto w = static_cast<std::size_t>(width_);
-  const std::size_t column = place(column_ends_.data() + row * w, w, u);
+  int left = 0;
+  int top = 0;
+  int right = width_;
+  int bottom = height_;
+  while (right - left > 1 || bottom - top > 1) {
+    const double sine = std::sin(std::numbers::pi * 0.5 * (top + bottom) / height_);
+    const double across = 2.0 * (right - left) / width_ * sine;  // in units of pi
+    const double down = static_cast<double>(bottom - top) / height_;
+    const double all = weight(left, top, right, bottom);
+    const bool by_columns = bottom - top == 1 || (right - left > 1 && across >= down);
+    int& begin = by_columns ? left : top;
+    int& end = by_columns ? right : bottom;
+    const int middle = begin + (end - begin) / 2;
+    const double first = by_columns ? weight(left, top, middle, bottom) : weight(left, top, right, middle);
+    const double even = static_cast<double>(middle - begin) / (end - begin);
+    const double share = all > 0.0 ? std::clamp(first / all, 0.0, 1.0) : even;
+    (in_first_part(share, by_columns ? u : v) ? end : begin) = middle;
+  }
   const scene::Environment upright;
-  return upright.direction({(static_cast<double>(column) + u) / width_, (static_cast<double>(row) + v) / height_});
+  return upright.direction({(static_cast<double>(left) + u) / width_, (static_cast<double>(top) + v) / height_});
 }
 
 PointRows point_rows(int count, std::uint64_t seed, const ImageSampling* image) {

@@ -18,12 +18,17 @@ class ImageSampling {
 
   /// For each texel, what times 1 / sin(theta) is the density of directions there, 1/sr; rows from the top.
   const std::vector<float>& densities() const { return densities_; }
-  /// The direction for (u, v) in [0, 1)^2, in the image's own frame: without the environment's rotation.
+  /// The direction for (u, v) in [0, 1)^2, in the image's own frame: without the environment's rotation. The image is halved along its
+  /// longer side again and again, so that points spread evenly over the square are spread evenly over the light. Source: Clarberg et al.
+  /// 2005, "Wavelet Importance Sampling: Efficiently Evaluating Products of Complex Functions" (sample warping).
   glm::dvec3 direction(double u, double v) const;
 
  private:
+  /// What the texels of columns [left, right) in rows [top, bottom) weigh, up to a factor.
+  double weight(int left, int top, int right, int bottom) const;
+
   int width_, height_;
-  std::vector<double> row_ends_, column_ends_;  // running sums over rows, and over the columns of each row
+  std::vector<double> sums_;  // of the weights of all texels left of column x and above row y, by rows of width + 1: Crow 1984
   std::vector<float> densities_;
 };
 

@@ -1,9 +1,11 @@
 // Light from everywhere: both ways of the renderer, held to what can be computed by hand.
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <utility>
 
 #include "image/test_folder.h"
 #include "renderer/environment_maps.h"
@@ -174,30 +176,62 @@ TEST(EnvironmentMaps, WhatWasFilteredOnceIsReadTheNextTime) {
   std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
 }
 
-TEST(ImageSampling, DrawsInProportionToTheDensitiesItTells) {
-  scene::Environment sky = image_of(16, 8, [](const glm::dvec3& d) { return 1.0 + d.y; });
-  sky.texels[5 * 16 + 3] = glm::vec3(50.0F);
+class ImageSamplingOf : public testing::TestWithParam<glm::ivec2> {};
+
+TEST_P(ImageSamplingOf, DrawsInProportionToTheDensitiesItTells) {
+  const auto [width, height] = std::pair(GetParam().x, GetParam().y);
+  const int texels = width * height;
+  scene::Environment sky = image_of(width, height, [](const glm::dvec3& d) { return 1.0 + d.y; });
+  sky.texels[static_cast<std::size_t>(2 * texels / 3)] = glm::vec3(50.0F);
   const ImageSampling sampling(sky);
   // The densities integrate to one over the sphere, and directions fall into each texel as often as its density says.
   double whole = 0.0;
   std::vector<double> expected;
-  for (int i = 0; i < 16 * 8; ++i) {
-    // density / sin(theta) times sin(theta) 2 pi^2 / texels
-    expected.push_back(static_cast<double>(sampling.densities()[static_cast<std::size_t>(i)]) * 2.0 * pi * pi / (16.0 * 8.0));
+  for (const float density : sampling.densities()) {
+    expected.push_back(static_cast<double>(density) * 2.0 * pi * pi / texels);  // density / sin(theta) times sin(theta) 2 pi^2 / texels
     whole += expected.back();
   }
   EXPECT_NEAR(whole, 1.0, 1e-5);
   constexpr int count = 100000;
-  std::vector<int> drawn(16 * 8, 0);
+  std::vector<int> drawn(expected.size(), 0);
   const PointRows rows = point_rows(count, 7, &sampling);
   for (int i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>((2 * (i / rows.columns) + 1) * rows.columns + i % rows.columns);
     const glm::dvec2 uv = sky.coordinates(glm::normalize(glm::dvec3(rows.texels[at])));
-    ++drawn[static_cast<std::size_t>(static_cast<int>(uv.y * 8) * 16 + static_cast<int>(uv.x * 16))];
+    ++drawn[static_cast<std::size_t>(static_cast<int>(uv.y * height) * width + static_cast<int>(uv.x * width))];
   }
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     EXPECT_NEAR(drawn[i], count * expected[i], 0.02 * count * expected[i] + 30.0) << i;
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(ImageSampling, ImageSamplingOf,
+                         testing::Values(glm::ivec2(16, 8), glm::ivec2(13, 7), glm::ivec2(5, 1), glm::ivec2(1, 3)),
+                         [](const auto& tested) { return std::to_string(tested.param.x) + "x" + std::to_string(tested.param.y); });
+
+TEST(ImageSampling, NoLightAtAllIsDrawnFromEvenly) {
+  const ImageSampling sampling(image_of(8, 4, [](const glm::dvec3&) { return 0.0; }));
+  const glm::dvec3 direction = sampling.direction(0.625, 0.25);  // a quarter down: 45 degrees above the horizon; -Z stands in the middle
+  EXPECT_NEAR(direction.y, std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(direction.x, std::sqrt(0.5) * std::cos(2.0 * pi * 0.125), 1e-9);
+  EXPECT_NEAR(direction.z, std::sqrt(0.5) * std::sin(2.0 * pi * 0.125), 1e-9);
+}
+
+TEST(ImageSampling, PointsThatAreSpreadEvenlyFindEachPartOfTheLightInItsShare) {
+  // 64 points, one in each cell of a lattice of 8 x 8, over four lamps of equal light, one in each quarter of the image: 16 for each.
+  scene::Environment lamps = image_of(64, 32, [](const glm::dvec3&) { return 0.0; });
+  for (const int y : {4, 27}) {
+    for (const int x : {5, 50}) {
+      lamps.texels[static_cast<std::size_t>(y * 64 + x)] = glm::vec3(1.0F);
+    }
+  }
+  const ImageSampling sampling(lamps);
+  std::array<int, 4> found{};
+  for (int i = 0; i < 64; ++i) {
+    const glm::dvec2 uv = lamps.coordinates(sampling.direction((i % 8 + 0.5) / 8.0, (i / 8 + 0.5) / 8.0));
+    ++found.at((uv.x < 0.5 ? 0 : 1) + (uv.y < 0.5 ? 0 : 2));
+  }
+  EXPECT_EQ(found, (std::array<int, 4>{16, 16, 16, 16}));
 }
 
 }  // namespace
