@@ -10,9 +10,9 @@ uniform int u_environment_samples;
 // Below it the sheen's lobe is drawn from by the other ways alone: it is a thin rim of next to no energy.
 const highp float SMALLEST_DRAWN_SHEEN_ROUGHNESS = 1e-3;
 
-// Which share of the directions a way draws was found best by the error at 4,096 of them: what its lobe reflects, about, but never
-// nothing, and the image as much as all lobes.
-const float SMALLEST_WEIGHT = 0.02;
+// A lobe draws as its albedo asks, the image as much as all lobes together. A lobe of small albedo still shows the brightest lights, so
+// each has its least share; that and the sheen's were found by the error of 4,096 directions under two skies, on 13 materials.
+const float SMALLEST_WEIGHT = 0.05;
 const float WEIGHT_OF_WHITE_SHEEN = 0.15;
 
 // Ways to draw a direction.

@@ -227,9 +227,11 @@ TEST(ImageSampling, PointsThatAreSpreadEvenlyFindEachPartOfTheLightInItsShare) {
   }
   const ImageSampling sampling(lamps);
   std::array<int, 4> found{};
-  for (int i = 0; i < 64; ++i) {
-    const glm::dvec2 uv = lamps.coordinates(sampling.direction((i % 8 + 0.5) / 8.0, (i / 8 + 0.5) / 8.0));
-    ++found.at((uv.x < 0.5 ? 0 : 1) + (uv.y < 0.5 ? 0 : 2));
+  for (int row = 0; row < 8; ++row) {
+    for (int column = 0; column < 8; ++column) {
+      const glm::dvec2 uv = lamps.coordinates(sampling.direction((column + 0.5) / 8.0, (row + 0.5) / 8.0));
+      ++found.at((uv.x < 0.5 ? 0 : 1) + (uv.y < 0.5 ? 0 : 2));
+    }
   }
   EXPECT_EQ(found, (std::array<int, 4>{16, 16, 16, 16}));
 }
