@@ -1,5 +1,7 @@
 // Which pixels a golden leaves out of verdicts, and why.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "golden/frame.h"
@@ -83,6 +85,52 @@ TEST(Exclusion, ASurfaceOnAClipPlane) {
   s.cameras[0].zfar = 7.0;
   test::add(s, test::square(2.0, -2.0), test::lambertian({0.9, 0.9, 0.9, 1.0}));
   EXPECT_EQ(excluded(s, 1.0F), 0) << "what lies on the far plane is hidden";
+}
+
+/// A strip at 45 degrees from pixel (8, 7)'s lower left to its upper right: pixels from its centre line on, and to where, along `across`.
+void add_strip(scene::Primitive& p, double half_length, double from, double to, const glm::vec4& color) {
+  constexpr double pixel = 2.0 / 16;
+  const auto first = static_cast<std::uint32_t>(p.positions.size());
+  for (const glm::dvec2& at :
+       {glm::dvec2(-half_length, from), glm::dvec2(half_length, from), glm::dvec2(half_length, to), glm::dvec2(-half_length, to)}) {
+    p.positions.emplace_back(pixel * (0.5 + (at.x - at.y) * std::sqrt(0.5)), pixel * (0.5 + (at.x + at.y) * std::sqrt(0.5)), 0.0);
+    p.normals.emplace_back(0.0F, 0.0F, 1.0F);
+    p.colors.push_back(color);
+  }
+  for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) {
+    p.indices.push_back(first + corner);
+  }
+}
+
+// Between a pixel's centre and the corners of its step, 1/512: no ray through these meets it.
+constexpr double sliver_from = 0.4 / 512;
+constexpr double sliver_to = 0.7 / 512;
+const glm::vec4 black(0.0F, 0.0F, 0.0F, 1.0F);
+const glm::vec4 white(1.0F);
+
+TEST(Exclusion, ASliverBetweenTheLooksIsASurfaceOfItsOwn) {
+  scene::Scene s = plane(test::lambertian({0.5, 0.5, 0.5, 1.0}));
+  EXPECT_EQ(excluded(s, 1.0F), 0);
+  scene::Primitive sliver;
+  add_strip(sliver, 0.3, sliver_from, sliver_to, black);
+  test::add(s, sliver, test::lambertian({1.0, 1.0, 1.0, 1.0}), glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 0.1)));
+  EXPECT_EQ(excluded(s, 1.0F), 1);
+  s.instances[1].world_from_local = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -0.1));
+  EXPECT_EQ(excluded(s, 1.0F), 0) << "it is hidden";
+}
+
+TEST(Exclusion, ASliverThatContinuesASurfaceIsPartOfTheBound) {
+  scene::Primitive p;
+  add_strip(p, 40.0, -40.0, sliver_from, white);
+  add_strip(p, 40.0, sliver_from, sliver_to, black);
+  add_strip(p, 40.0, sliver_to, 40.0, white);
+  const scene::Scene s =
+      test::scene_with(p, test::lambertian({0.5, 0.5, 0.5, 1.0}), test::orthographic_at(5.0, 1.0), {test::directional({0.0, 0.0, 1.0})});
+  const image::Image golden = render(s, test::settings_for(16, 16, true));
+  EXPECT_EQ(golden.at(8, 7, golden.channel("excluded")), 0.0F);
+  EXPECT_GT(golden.at(8, 7, 0), 0.1F);
+  EXPECT_GE(golden.at(8, 7, golden.channel("bound.R")), golden.at(8, 7, 0)) << "a driver may show black there";
+  EXPECT_LT(golden.at(8, 9, golden.channel("bound.R")), 1e-3F * golden.at(8, 9, 0));
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ std::vector<PreparedLight> seen_from(const scene::Camera& camera, std::vector<Pr
 
 PixelBound::PixelBound(const Frame& frame)
     : frame_(frame),
+      near_misses_(frame),
       reader_(frame.geometry, frame.rays, frame.reader, frame.model.model),
       lights_(seen_from(frame.rays.camera(), frame.lights)) {
   if (!frame.albedo) {

@@ -8,6 +8,7 @@
 
 #include "golden/bounded_surface.h"
 #include "golden/frame.h"
+#include "golden/near_misses.h"
 
 namespace sheen::golden {
 
@@ -34,12 +35,14 @@ class PixelBound {
   Bound opacity(const Hit& hit, const Ray& ray, double step) const { return reader_.opacity(hit, ray, step); }
 
   const Frame& frame() const { return frame_; }
+  const NearMisses& near_misses() const { return near_misses_; }
   const BoundedSurfaceReader& reader() const { return reader_; }
   /// What a material's surfaces in view space are shaded with.
   Lighting lighting(int material) const;
 
  private:
   const Frame& frame_;
+  NearMisses near_misses_;
   BoundedSurfaceReader reader_;
   std::vector<PreparedLight> lights_;                 // in view space
   std::vector<std::optional<AlbedoAround>> albedos_;  // of materials without a texture of sheen roughness

@@ -23,6 +23,14 @@ Ray RayGenerator::through(double x, double y) const {
   return {origin_ + across, forward_, x, y};
 }
 
+glm::dvec2 RayGenerator::window(const glm::dvec3& point) const {
+  const glm::dvec3 from_eye = point - origin_;
+  const double per_depth = camera_.perspective ? 1.0 / glm::dot(from_eye, forward_) : 1.0;
+  const double across = glm::dot(from_eye, right_) / glm::dot(right_, right_) * per_depth;
+  const double up = glm::dot(from_eye, up_) / glm::dot(up_, up_) * per_depth;
+  return {0.5 * (1.0 + across) * width_, 0.5 * (1.0 - up) * height_};
+}
+
 glm::dvec3 RayGenerator::toward_camera(const Ray& ray) const {
   return -glm::normalize(ray.direction);
 }

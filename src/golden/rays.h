@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "scene/scene.h"
@@ -24,6 +25,9 @@ class RayGenerator {
 
   /// Unit vector from a point the ray meets toward the camera.
   glm::dvec3 toward_camera(const Ray& ray) const;
+
+  /// Where a point in front of the camera shows, in pixels from the top left corner; the inverse of through().
+  glm::dvec2 window(const glm::dvec3& point) const;
 
   /// Depth of a point along the viewing axis.
   double depth(const glm::dvec3& point) const { return glm::dot(point - origin_, forward_); }

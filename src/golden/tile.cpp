@@ -134,6 +134,7 @@ bool Tile::add_nudged() {
 }
 
 Tile::Plan Tile::plan(int x, int y) {
+  looks_.resize(looks_around);
   Look& centre = looks_[0];
   centre.ray = frame_.rays.through(x + 0.5, y + 0.5);
   const bool bounds = frame_.settings.bounds;
@@ -148,7 +149,10 @@ Tile::Plan Tile::plan(int x, int y) {
     return plan;
   }
   plan.first_bound = bounded_->count();
-  const double step = look_around(plan);
+  double step = look_around(plan);
+  if (plan.excluded == Exclusion::None) {
+    step = std::max(step, look_at_near_misses(x, y, plan));
+  }
   enclose(step);
   plan.last_bound = bounded_->count();
   bool sampled = true;

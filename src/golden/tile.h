@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -75,6 +76,8 @@ class Tile {
   Plan plan(int x, int y);
   double look_around(Plan& plan);
   void look(double step, Plan& plan);
+  double look_at_near_misses(int x, int y, Plan& plan);
+  bool look_at(const NearMiss& miss, bool front, Plan& plan);
   void enclose(double step);
   Enclosed enclosed(const Plan& plan) const;
   void add_shifted();
@@ -85,7 +88,7 @@ class Tile {
   void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {}, const Hit* varied = nullptr);
   void add_sample_with_tie(Seen& seen, const Ray& ray);
   void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
-  bool interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const;
+  bool interrupted(const Ray& ray, const Seen& seen, std::optional<double> depths = std::nullopt) const;
   Seen extended(const Seen& centre, const Ray& ray) const;
   bool has_environment() const { return frame_.settings.environment != nullptr; }
   bool shows_background() const;
@@ -100,6 +103,7 @@ class Tile {
   Composed compose(const Sample& sample, bool refined = false) const;
   Pixel finish(const Plan& plan) const;
 
+  static constexpr std::size_t looks_around = 5;
   // What the rays through a pixel's centre, first, and the corners of the step around it see.
   struct Look {
     Ray ray;
@@ -110,7 +114,7 @@ class Tile {
   const PixelBound* bound_;
   std::optional<BoundedSamples> bounded_;
   CurveCache curves_;
-  std::array<Look, 5> looks_;
+  std::deque<Look> looks_{looks_around};  // and through near misses that are seen
   std::vector<Surface<double>> surfaces_;
   std::vector<int> materials_;  // of surfaces_
   std::vector<Shaded<double>> shaded_;

@@ -3,16 +3,22 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 
 #include "golden/tile.h"
+#include "golden/window_triangle.h"
 
 namespace sheen::golden {
 
 // Whether another surface, or none, is met within the step: another number of layers, or a depth that neither triangle's slope explains.
 // Across an edge that two triangles share, their planes meet within the step, so the gap between them is at most what both depths change.
-bool Tile::interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray, const Seen& seen) const {
+// @param depths  how far apart those of the other triangle are within the step, where it is too narrow to have a slope
+bool Tile::interrupted(const Ray& ray, const Seen& seen, std::optional<double> depths) const {
+  const Seen& centre = looks_[0].seen;
   if (centre.nearest.has_value() != seen.nearest.has_value() || centre.blended.size() != seen.blended.size()) {
     return true;
   }
@@ -20,11 +26,15 @@ bool Tile::interrupted(const Ray& centre_ray, const Seen& centre, const Ray& ray
     return false;
   }
   const std::optional<Hit> ours_there = frame_.geometry.meet(centre.nearest->triangle, ray);
-  const std::optional<Hit> theirs_here = frame_.geometry.meet(seen.nearest->triangle, centre_ray);
-  if (!ours_there || !theirs_here) {
+  if (!depths) {
+    if (const std::optional<Hit> theirs_here = frame_.geometry.meet(seen.nearest->triangle, looks_[0].ray)) {
+      depths = std::abs(seen.nearest->t - theirs_here->t);
+    }
+  }
+  if (!ours_there || !depths) {
     return true;
   }
-  const double change = std::abs(ours_there->t - centre.nearest->t) + std::abs(seen.nearest->t - theirs_here->t);
+  const double change = std::abs(ours_there->t - centre.nearest->t) + *depths;
   // Twice: several small triangles may lie between the two.
   return std::abs(seen.nearest->t - ours_there->t) > 2.0 * change + 1e-7 * std::abs(centre.nearest->t);
 }
@@ -75,10 +85,67 @@ void Tile::look(double step, Plan& plan) {
     Look& look = looks_[corner + 1];
     look.ray = frame_.rays.through(centre.ray.x + dx, centre.ray.y + dy);
     frame_.tracer.trace(look.ray, true, look.seen);
-    if (look.seen.tie || look.seen.ambiguous || interrupted(centre.ray, centre.seen, look.ray, look.seen)) {
+    if (look.seen.tie || look.seen.ambiguous || interrupted(look.ray, look.seen)) {
       plan.excluded = Exclusion::Surface;
     }
   }
+}
+
+// What the looks around the centre passed by, and a driver may show. Returns how far it may be displaced, at most.
+double Tile::look_at_near_misses(int x, int y, Plan& plan) {
+  double farthest = 0.0;
+  for (const NearMiss& miss : bound_->near_misses().at(x, y)) {
+    const Placed& placed = frame_.geometry.placed(miss.triangle);
+    for (const bool front : {true, false}) {
+      const bool met = std::any_of(looks_.begin(), looks_.end(), [&](const Look& look) { return look.seen.shows(miss.triangle, front); });
+      if (!met && (front || placed.material->double_sided) && look_at(miss, front, plan)) {
+        farthest = std::max(farthest, miss.reach);
+      }
+    }
+  }
+  return farthest;
+}
+
+// Whether a side of a near miss may be seen; then it is among the looks.
+bool Tile::look_at(const NearMiss& miss, bool front, Plan& plan) {
+  const glm::dvec2 place(looks_[0].ray.x, looks_[0].ray.y);
+  const std::vector<WindowPoint> polygon = window_polygon(frame_.geometry, frame_.rays, miss.triangle);
+  const std::vector<WindowPoint> part = around(polygon, place, miss.reach, frame_.rays.camera().perspective);
+  if (part.empty()) {
+    return false;
+  }
+  WindowPoint middle{glm::dvec2(0.0), glm::dvec3(0.0), 0.0};
+  double nearest = part.front().depth;
+  double farthest = nearest;
+  for (const WindowPoint& corner : part) {
+    const double share = 1.0 / static_cast<double>(part.size());
+    middle.window += share * corner.window;
+    middle.weights += share * corner.weights;
+    nearest = std::min(nearest, corner.depth);
+    farthest = std::max(farthest, corner.depth);
+  }
+  Look look;
+  look.ray = frame_.rays.through(middle.window.x, middle.window.y);
+  Hit hit{miss.triangle, middle.weights, 0.5 * (nearest + farthest), front};
+  if (const std::optional<Hit> met = frame_.geometry.meet(miss.triangle, look.ray)) {
+    if (met->front != front && !may_cover_turned_over(polygon, place, miss.reach)) {
+      return false;
+    }
+    if (met->smallest_weight() >= 0.0) {
+      hit = {miss.triangle, met->weights, met->t, front};
+    }
+  }
+  frame_.tracer.trace(look.ray, true, look.seen, &hit);
+  if (!look.seen.shows(miss.triangle, front)) {
+    return false;
+  }
+  const bool in_front = look.seen.nearest && look.seen.nearest->triangle == miss.triangle;
+  const std::optional<double> depths = in_front ? std::optional(farthest - nearest) : std::nullopt;
+  if (look.seen.tie || look.seen.ambiguous || interrupted(look.ray, look.seen, depths)) {
+    plan.excluded = Exclusion::Surface;
+  }
+  looks_.push_back(std::move(look));
+  return true;
 }
 
 // A driver whose grid moves an edge past a sample shades that sample with the triangles of the other side, carried on beyond the edge: with

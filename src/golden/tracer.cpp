@@ -64,15 +64,14 @@ bool Seen::same_triangles(const Seen& other) const {
   if (nearest.has_value() != other.nearest.has_value() || blended.size() != other.blended.size()) {
     return false;
   }
-  if (nearest && nearest->triangle != other.nearest->triangle) {
-    return false;
-  }
-  for (std::size_t i = 0; i < blended.size(); ++i) {
-    if (blended[i].triangle != other.blended[i].triangle) {
-      return false;
-    }
-  }
-  return true;
+  const auto same = [](const Hit& a, const Hit& b) { return a.triangle == b.triangle && a.front == b.front; };
+  return (!nearest || same(*nearest, *other.nearest)) && std::equal(blended.begin(), blended.end(), other.blended.begin(), same);
+}
+
+bool Seen::shows(std::uint32_t triangle, bool front) const {
+  const auto is_it = [=](const Hit& hit) { return hit.triangle == triangle && hit.front == front; };
+  return (nearest && is_it(*nearest)) || (tie && is_it(*tie)) || std::any_of(blended.begin(), blended.end(), is_it) ||
+         std::any_of(masked.begin(), masked.end(), is_it);
 }
 
 struct Tracer::Impl {
@@ -92,6 +91,7 @@ struct Tracer::Impl {
   bool is_clipped(const Hit& hit) const;
   bool is_at_clip_plane(const Hit& hit) const;
   bool kept_by_mask(const Hit& hit, Query& query) const;
+  bool consider(const Hit& hit, Query& query) const;
   std::optional<Hit> neighbour(const Hit& hit, const Ray& ray) const;
   void settle_nearest(std::vector<Hit>& candidates, const Ray& ray, Seen& seen) const;
   void settle_blended(const Ray& ray, Seen& seen) const;
@@ -104,6 +104,7 @@ struct Tracer::Impl::Query {
   const Ray* ray;
   Seen* seen;
   bool with_masked;
+  const Hit* also;
   double limit;  // beyond it nothing matters
   double best;   // depth of the nearest opaque hit so far
   double nearest_at_clip_plane;
@@ -153,27 +154,38 @@ void Tracer::Impl::filter(const RTCFilterFunctionNArguments* args) {
   auto& query = *reinterpret_cast<Query*>(args->context);
   const Impl& impl = *query.impl;
   const std::uint32_t triangle = RTCHitN_primID(args->hit, args->N, 0);
+  if (query.also != nullptr && query.also->triangle == triangle) {
+    return;
+  }
   const std::optional<Hit> hit = impl.visible(triangle, *query.ray);
-  if (hit && impl.is_at_clip_plane(*hit)) {
-    query.nearest_at_clip_plane = std::min(query.nearest_at_clip_plane, hit->t);
-  }
-  if (!hit || impl.is_clipped(*hit) || hit->t > query.limit) {
+  if (!hit || !impl.consider(*hit, query)) {
     return;
   }
-  const scene::Material& material = *impl.geometry.placed(triangle).material;
-  if (material.alpha_mode == scene::AlphaMode::Blend) {
-    query.seen->blended.push_back(*hit);
-    return;
-  }
-  if (material.alpha_mode == scene::AlphaMode::Mask && !impl.kept_by_mask(*hit, query)) {
-    return;
-  }
-  query.candidates.push_back(*hit);
-  query.best = std::min(query.best, hit->t);
-  query.limit = query.best + std::max(depth_rounding * std::abs(query.best), impl.depth_tolerance(query.best));
   // Accepting shortens the ray to its new end, which is a little beyond this hit, so that what ties with it is still visited.
   RTCRayN_tfar(args->ray, args->N, 0) = static_cast<float>(query.limit);
   args->valid[0] = -1;
+}
+
+// Takes note of a hit. Whether it hides what lies behind it.
+bool Tracer::Impl::consider(const Hit& hit, Query& query) const {
+  if (is_at_clip_plane(hit)) {
+    query.nearest_at_clip_plane = std::min(query.nearest_at_clip_plane, hit.t);
+  }
+  if (is_clipped(hit) || hit.t > query.limit) {
+    return false;
+  }
+  const scene::Material& material = *geometry.placed(hit.triangle).material;
+  if (material.alpha_mode == scene::AlphaMode::Blend) {
+    query.seen->blended.push_back(hit);
+    return false;
+  }
+  if (material.alpha_mode == scene::AlphaMode::Mask && !kept_by_mask(hit, query)) {
+    return false;
+  }
+  query.candidates.push_back(hit);
+  query.best = std::min(query.best, hit.t);
+  query.limit = query.best + std::max(depth_rounding * std::abs(query.best), depth_tolerance(query.best));
+  return true;
 }
 
 void Tracer::Impl::build() {
@@ -330,7 +342,7 @@ Tracer::Tracer(const scene::Scene& scene, const Geometry& geometry, const Surfac
 
 Tracer::~Tracer() = default;
 
-void Tracer::trace(const Ray& ray, bool with_masked, Seen& seen) const {
+void Tracer::trace(const Ray& ray, bool with_masked, Seen& seen, const Hit* also) const {
   seen.clear();
   Impl::Query query{};
   rtcInitIntersectContext(&query.context);
@@ -339,9 +351,13 @@ void Tracer::trace(const Ray& ray, bool with_masked, Seen& seen) const {
   query.ray = &ray;
   query.seen = &seen;
   query.with_masked = with_masked;
+  query.also = also;
   query.limit = impl_->rays.camera().zfar;
   query.best = std::numeric_limits<double>::infinity();
   query.nearest_at_clip_plane = std::numeric_limits<double>::infinity();
+  if (also != nullptr) {
+    impl_->consider(*also, query);
+  }
   RTCRayHit cast{};
   const glm::dvec3 origin = ray.origin - impl_->centre;
   cast.ray.org_x = static_cast<float>(origin.x);

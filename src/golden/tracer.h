@@ -22,7 +22,10 @@ struct Seen {
 
   void clear();
   bool empty() const { return !nearest && blended.empty(); }
+  /// Whether both meet the same sides of the same triangles.
   bool same_triangles(const Seen& other) const;
+  /// Whether a triangle's side is among what is seen, or masks that were asked for.
+  bool shows(std::uint32_t triangle, bool front) const;
 };
 
 /// Casts rays with Embree, which is single precision, and recomputes every hit in double; near edges the triangle that the exact ray passes
@@ -38,7 +41,8 @@ class Tracer {
   /// Single-sided surfaces seen from behind are invisible, MASK surfaces where alpha < cutoff too. Thread-safe; `seen` is cleared first and
   /// given back filled, so that its memory serves the next ray.
   /// @param with_masked  whether to fill `masked`
-  void trace(const Ray& ray, bool with_masked, Seen& seen) const;
+  /// @param also         met by the ray as it is said to be, whatever its triangle's plane says: of a triangle that is too narrow for one
+  void trace(const Ray& ray, bool with_masked, Seen& seen, const Hit* also = nullptr) const;
 
  private:
   struct Impl;

@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 
+#include "golden/window_triangle.h"
 #include "number/precision.h"
 
 namespace sheen::golden {
@@ -24,10 +25,15 @@ Interpolation::Interpolation(const Geometry& geometry, const RayGenerator& rays,
   sum_ = sum_of(volumes_);
   sum_x_ = sum_of(volumes_x_);
   sum_y_ = sum_of(volumes_y_);
-  // Of a triangle narrower than the step, what may be shown is held to twice its own size (Tile's triangles carried on are, too).
   const glm::dvec3 moved = glm::abs(volumes_x_) + glm::abs(volumes_y_);
   const double most = std::max({moved.x, moved.y, moved.z, std::abs(sum_x_) + std::abs(sum_y_)});
   within_ = most < std::abs(sum_);
+  if (!within_) {
+    const std::vector<WindowPoint> polygon = window_polygon(geometry, rays, hit.triangle);
+    for (const WindowPoint& corner : around(polygon, {ray.x, ray.y}, step, rays.camera().perspective)) {
+      shown_.push_back(corner.weights);
+    }
+  }
   if (rays.camera().perspective) {
     add_corners(geometry, rays, hit);
   }
@@ -71,8 +77,14 @@ Varying Interpolation::operator()(const std::array<double, 3>& f, double roundin
   const glm::dvec3 shares = glm::abs(weights_);
   v.radius = 13.5 * epsilon * magnified + 3.0 * epsilon * largest + rounding * (shares.x + shares.y + shares.z);
   if (!within_) {
-    const double spread = std::max({f[0], f[1], f[2]}) - std::min({f[0], f[1], f[2]});
-    v.radius += 3.0 * spread;  // weights from -1 to 2
+    double farthest = 0.0;
+    for (const glm::dvec3& weights : shown_) {
+      farthest = std::max(farthest, std::abs(glm::dot(weights, at) - v.value));
+    }
+    if (shown_.empty()) {  // no rasteriser shows it here, within the reach of its own roundings: all of it
+      farthest = std::max({std::abs(f[0] - v.value), std::abs(f[1] - v.value), std::abs(f[2] - v.value)});
+    }
+    v.radius += farthest;
     return v;
   }
   v.shift_x = (glm::dot(volumes_x_, at) - v.value * sum_x_) / sum_;

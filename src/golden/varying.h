@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "golden/geometry.h"
 #include "golden/rays.h"
@@ -17,7 +18,7 @@ struct Varying {
 /// One triangle under one sample, ready to interpolate whatever stands at its vertices (OpenGL ES 3.0.6, section 3.6.1).
 class Interpolation {
  public:
-  /// @param hit   on the triangle's plane under `ray`, or its weights held to what a rasteriser could show
+  /// @param hit   on the triangle's plane under `ray`; of a triangle that the step reaches beyond, any of it
   /// @param step  of the sample's displacement, pixels
   Interpolation(const Geometry& geometry, const RayGenerator& rays, const Hit& hit, const Ray& ray, double step);
 
@@ -28,6 +29,8 @@ class Interpolation {
   bool is_edge_on() const { return !within_; }
 
  private:
+  std::vector<glm::dvec3> shown_;  // unless within_: weights, which hold all that samples moved by the step may be given
+
   void add_corners(const Geometry& geometry, const RayGenerator& rays, const Hit& hit);
 
   glm::dvec3 weights_;

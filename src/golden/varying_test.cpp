@@ -71,7 +71,7 @@ TEST_F(VaryingTest, HoldsARasteriserThatWalksAlongThePlaneInFloats) {
   EXPECT_GT(farthest, 0.02);
 }
 
-TEST_F(VaryingTest, OfATriangleNarrowerThanTheStepHoldsTwiceItsOwnRange) {
+TEST_F(VaryingTest, OfATriangleNarrowerThanTheStepHoldsWhatLiesWithinTheStep) {
   scene::Primitive thin = leaning(1.0F);
   thin.positions = {{-1.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 0.001F, 0.0F}};  // a step is ten times as high
   const scene::Scene s = test::scene_with(thin, {}, test::camera_at(4.0), {});
@@ -80,12 +80,15 @@ TEST_F(VaryingTest, OfATriangleNarrowerThanTheStepHoldsTwiceItsOwnRange) {
   const Ray ray = rays.through(8.0, 8.0);
   Hit hit;
   hit.triangle = 0;
-  hit.weights = {0.4, 0.3, 0.3};
+  hit.weights = {0.4, 0.4, 0.2};
   hit.t = 4.0;
   const Varying v = Interpolation(geometry, rays, hit, ray, 1.0 / 16)(f, 0.0);
-  EXPECT_NEAR(v.value, 0.8 - 0.3 + 1.5, 1e-12);
-  EXPECT_GE(v.radius, 18.0);
-  EXPECT_TRUE(std::isfinite(v.radius));
+  EXPECT_NEAR(v.value, 0.8 - 0.4 + 1.0, 1e-12);
+  // Across it all: from the foot, where f is 0.5 and changes by 1.5 a unit, to the tip, where it is 5; along it no more than the step.
+  const double along = 1.0 / 16 * (4.0 * std::tan(0.5 * s.cameras[0].yfov) / 8.0);
+  EXPECT_NEAR(v.radius, 5.0 - v.value, 1e-5);
+  EXPECT_GE(v.value - v.radius, -3.0) << "nothing of its far ends";
+  EXPECT_LE(v.value - v.radius, 0.5 - 1.5 * along);
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+#include "golden/near_misses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "golden/vertex_rounding.h"
+#include "golden/window_triangle.h"
+
+namespace sheen::golden {
+namespace {
+
+struct Interval {
+  double low, high;
+};
+
+Interval extent(const std::vector<WindowPoint>& polygon, int axis) {
+  const auto [low, high] = std::minmax_element(
+      polygon.begin(), polygon.end(), [axis](const WindowPoint& a, const WindowPoint& b) { return a.window[axis] < b.window[axis]; });
+  return {low->window[axis], high->window[axis]};
+}
+
+// Pixels whose centres lie within `reach` of an interval: [first, last).
+std::pair<int, int> pixels(const Interval& interval, double reach, int size) {
+  const double first = std::clamp(std::ceil(interval.low - reach - 0.5), 0.0, static_cast<double>(size));
+  const double last = std::clamp(std::floor(interval.high + reach - 0.5) + 1.0, first, static_cast<double>(size));
+  return {static_cast<int>(first), static_cast<int>(last)};
+}
+
+// Whether moving every corner by up to `reach` along both axes may change the sign of the area.
+bool may_turn_over(const std::vector<WindowPoint>& polygon, double reach) {
+  double twice_area = 0.0;
+  double around = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2 a = polygon[i].window - polygon[0].window;
+    const glm::dvec2 b = polygon[(i + 1) % polygon.size()].window - polygon[0].window;
+    twice_area += a.x * b.y - a.y * b.x;
+    around += std::abs(b.x - a.x) + std::abs(b.y - a.y);
+  }
+  // Of a triangle, to first order, the reach times the way around; of a triangle that a clip plane cuts, at most twice that.
+  return std::abs(twice_area) <= 2.0 * reach * around + 2.0 * static_cast<double>(polygon.size()) * reach * reach;
+}
+
+// How far along either axis a driver may move the points of a triangle: its grid, and the roundings of its vertices. Of these a point has,
+// relative to its depth, a mean: a corner of the polygon has the most. What moves by whole pixels is nothing to compare.
+double reach_of(const Frame& frame, std::uint32_t triangle, const std::vector<WindowPoint>& polygon) {
+  const double grid = std::ldexp(0.5, -frame.settings.subpixel_bits);
+  double most = displacement(frame.settings);
+  for (const WindowPoint& corner : polygon) {
+    const Hit hit{triangle, corner.weights, corner.depth, true};
+    most = std::max(most, grid + window_rounding(frame.geometry, frame.rays, hit));
+  }
+  return std::min(most, 1.0);
+}
+
+}  // namespace
+
+NearMisses::NearMisses(const Frame& frame) : width_(frame.settings.view.width) {
+  for (std::uint32_t i = 0; i < frame.geometry.triangle_count(); ++i) {
+    add(frame, i);
+  }
+  std::stable_sort(misses_.begin(), misses_.end(), [](const NearMiss& a, const NearMiss& b) { return a.pixel < b.pixel; });
+}
+
+void NearMisses::add(const Frame& frame, std::uint32_t triangle) {
+  const std::vector<WindowPoint> polygon = window_polygon(frame.geometry, frame.rays, triangle);
+  if (polygon.empty()) {
+    return;
+  }
+  const bool perspective = frame.rays.camera().perspective;
+  const Interval across = extent(polygon, 0);
+  const Interval along = extent(polygon, 1);
+  const int width = frame.rays.width();
+  const int height = frame.rays.height();
+  const auto none = [](const std::pair<int, int>& range) { return range.first >= range.second; };
+  if (none(pixels(across, 1.0, width)) || none(pixels(along, 1.0, height))) {
+    return;
+  }
+  const double reach = reach_of(frame, triangle, polygon);
+  const std::pair<int, int> rows = pixels(along, reach, height);
+  if (none(rows) || none(pixels(across, reach, width))) {
+    return;
+  }
+  const bool turns = may_turn_over(polygon, reach);
+  if (!turns && !frame.geometry.placed(triangle).material->double_sided) {
+    const glm::dvec2 middle = (polygon[0].window + polygon[1].window + polygon[2].window) / 3.0;
+    const std::optional<Hit> met = frame.geometry.meet(triangle, frame.rays.through(middle.x, middle.y));
+    if (met && !met->front) {
+      return;
+    }
+  }
+  for (int y = rows.first; y < rows.second; ++y) {
+    const std::vector<WindowPoint> strip = between(polygon, 1, y + 0.5 - reach, y + 0.5 + reach, perspective);
+    if (strip.empty()) {
+      continue;
+    }
+    const std::pair<int, int> touched = pixels(extent(strip, 0), reach, width);
+    const std::vector<WindowPoint> line = between(polygon, 1, y + 0.5, y + 0.5, perspective);
+    // Of a triangle that may turn over, what it covers as well.
+    const std::pair<int, int> covered = line.empty() || turns ? std::pair(0, 0) : pixels(extent(line, 0), 0.0, width);
+    for (int x = touched.first; x < touched.second; ++x) {
+      if (x < covered.first || x >= covered.second) {
+        misses_.push_back({pixel_at(x, y), triangle, reach});
+      }
+    }
+  }
+}
+
+std::uint64_t NearMisses::pixel_at(int x, int y) const {
+  return static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width_) + static_cast<std::uint64_t>(x);
+}
+
+NearMisses::Range NearMisses::at(int x, int y) const {
+  const auto before = [](const NearMiss& miss, std::uint64_t pixel) { return miss.pixel < pixel; };
+  const auto first = std::lower_bound(misses_.begin(), misses_.end(), pixel_at(x, y), before);
+  const auto last = std::lower_bound(first, misses_.end(), pixel_at(x, y) + 1, before);
+  return {misses_.data() + (first - misses_.begin()), misses_.data() + (last - misses_.begin())};
+}
+
+}  // namespace sheen::golden

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "golden/frame.h"
+
+namespace sheen::golden {
+
+/// A triangle that does not cover a pixel's centre, but may once a driver has moved its vertices.
+struct NearMiss {
+  std::uint64_t pixel;  ///< y width + x
+  std::uint32_t triangle;
+  double reach;  ///< how far along either axis its vertices may be moved, pixels
+};
+
+/// The near misses of all pixels of a picture, for triangles that show the side that is drawn, or may. However narrow they are: a few rays
+/// around a pixel's centre would pass by them.
+class NearMisses {
+ public:
+  explicit NearMisses(const Frame& frame);
+
+  /// Of a pixel: [begin(), end()).
+  struct Range {
+    const NearMiss* first;
+    const NearMiss* last;
+    const NearMiss* begin() const { return first; }
+    const NearMiss* end() const { return last; }
+  };
+  Range at(int x, int y) const;
+
+ private:
+  void add(const Frame& frame, std::uint32_t triangle);
+  std::uint64_t pixel_at(int x, int y) const;
+
+  int width_;
+  std::vector<NearMiss> misses_;  // by pixel
+};
+
+}  // namespace sheen::golden
