@@ -50,8 +50,8 @@ renderer::Settings read_settings(const json& request, renderer::Precision precis
   for (const auto& [key, value] : request["settings"].items()) {
     if (key == "environment_samples") {
       settings.environment_samples = value.get<int>();
-      if (settings.environment_samples < 0) {
-        throw std::invalid_argument("environment_samples must not be negative");
+      if (settings.environment_samples < 0 || settings.environment_samples > renderer::most_environment_samples) {
+        throw std::invalid_argument("environment_samples must be from 0 to " + std::to_string(renderer::most_environment_samples));
       }
       continue;
     }

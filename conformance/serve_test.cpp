@@ -118,6 +118,22 @@ TEST_F(ServeTest, AnEnvironmentLightsThePicture) {
   EXPECT_NE(image::read(folder_.path() / "sampled.exr").data, with.data);
 }
 
+TEST_F(ServeTest, MoreDirectionsThanEveryDriverDrawsAreRefused) {
+  json request_of_more = request("more");
+  request_of_more["environment"] = "uniform:1,1,1";
+  std::string lines;
+  for (const int samples : {-1, renderer::most_environment_samples + 1}) {
+    request_of_more["settings"] = {{"environment_samples", samples}};
+    lines += request_of_more.dump() + "\n";
+  }
+  const std::vector<std::string> answers = lines_for(lines);
+  ASSERT_EQ(answers.size(), 3U);
+  for (const std::size_t i : {1U, 2U}) {
+    EXPECT_EQ(json::parse(answers[i])["status"], "failed");
+    EXPECT_NE(json::parse(answers[i])["message"].get<std::string>().find("from 0 to 50000"), std::string::npos) << answers[i];
+  }
+}
+
 TEST_F(ServeTest, DrawsTheSceneAndTheSettingsAsTheyWereAltered) {
   ServeOptions options;
   options.alter = [](scene::Scene& scene, renderer::Settings& settings) {

@@ -4,7 +4,7 @@
 
 // In rows by turns: points of the unit square in r, g; directions of the image in r, g, b, drawn in proportion to its radiance.
 uniform sampler2D u_environment_points;
-// Directions to draw, all ways together.
+// Directions to draw, all ways together; but each way draws at least one.
 uniform int u_environment_samples;
 
 // Below it the sheen's lobe is drawn from by the other ways alone: it is a thin rim of next to no energy.
@@ -161,7 +161,7 @@ float weight(Surface surface, int way) {
     return under_coat * max3(surface.base.baseColor) * (1.0 - surface.base.metallic);
 }
 
-// How many directions each way draws; together about u_environment_samples.
+// How many directions each way draws.
 int[DRAWS] directions_by_way(Surface surface) {
     float weights[DRAWS];
     float sum = 0.0;
@@ -201,11 +201,21 @@ float density_of_all(Surface surface, vec3 L, int counts[DRAWS]) {
 vec3 environment_light(Surface surface) {
     vec3 radiance = vec3(0.0);
     int counts[DRAWS] = directions_by_way(surface);
-    for (int way = 0; way < DRAWS; ++way) {
-        for (int i = 0; i < counts[way]; ++i) {
+    int turns = DRAWS;
+    for (int way = 0; way < DRAWS; ++way) turns += counts[way];
+    // One loop over all ways, since Mesa's llvmpipe ends the loops of a shader after 65,535 turns in all, and pixels that are drawn together
+    // take as many as the one that takes the most: of one way in one, of another in another.
+    int way = 0;
+    int i = 0;
+    for (int turn = 0; turn < turns; ++turn) {
+        if (i == counts[way]) {
+            ++way;
+            i = 0;
+        } else {
             vec3 L = drawn_direction(surface, way, i);
             float density = density_of_all(surface, L, counts);
             if (density > 0.0) radiance += reflected_light(surface, L) * environment_radiance(L) / density;
+            ++i;
         }
     }
 

@@ -135,7 +135,7 @@ void add_shader(CLI::App& app, RenderOptions& options) {
   add_word(app, "--albedo-source", options.albedo_source, albedo_source_words, "Where the shader takes the directional albedo from");
   app.add_option("--environment-samples", options.environment_samples,
                  "Draw that many directions a pixel to integrate the environment; 0: filter it beforehand, the real-time way")
-      ->check(CLI::Range(0, 1 << 24))
+      ->check(CLI::Range(0, renderer::most_environment_samples))
       ->capture_default_str();
   add_not_yet(app, "--max-error", 1);
 }
@@ -269,7 +269,7 @@ Action declare_run(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--environment-samples", options->environment_samples,
                  "Directions a pixel that our own viewer draws toward an environment; 0: the real-time way")
-      ->check(CLI::Range(0, 1 << 24))
+      ->check(CLI::Range(0, renderer::most_environment_samples))
       ->capture_default_str();
   return [options] { return run(*options); };
 }

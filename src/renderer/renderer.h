@@ -22,6 +22,9 @@ enum class Formulation { Literal, Stable };
 /// Where the shader takes E from.
 enum class AlbedoSource { Table, Fit };
 
+/// Of Settings::environment_samples. Mesa's llvmpipe ends the loops of a shader after 65,535 turns in all, and what is left is not drawn.
+inline constexpr int most_environment_samples = 50000;
+
 struct Settings {
   scene::View view;
   albedo::SheenModel sheen;
@@ -29,7 +32,7 @@ struct Settings {
   Formulation formulation = Formulation::Stable;
   AlbedoSource albedo_source = AlbedoSource::Table;
   const scene::Environment* environment = nullptr;  ///< light from everywhere; must outlive the call
-  int environment_samples = 0;                      ///< directions drawn a pixel; 0: the image is filtered beforehand instead
+  int environment_samples = 0;                      ///< directions drawn a pixel; 0: it is filtered beforehand instead
   std::uint64_t seed = 0;                           ///< of the directions drawn
   /// Texts that stand in for files of shaders/, by file name: how shaders are tried that this program was not built with. Null: none. Must
   /// outlive the call. What is made of an environment beforehand, and kept, is made without them.
