@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "golden/vertex_rounding.h"
 #include "golden/window_triangle.h"
 
@@ -53,16 +55,11 @@ double reach_of(const Frame& frame, std::uint32_t triangle, const std::vector<Wi
   return std::min(most, 1.0);
 }
 
-}  // namespace
-
-NearMisses::NearMisses(const Frame& frame) : width_(frame.settings.view.width) {
-  for (std::uint32_t i = 0; i < frame.geometry.triangle_count(); ++i) {
-    add(frame, i);
-  }
-  std::stable_sort(misses_.begin(), misses_.end(), [](const NearMiss& a, const NearMiss& b) { return a.pixel < b.pixel; });
+std::uint64_t pixel_at(int x, int y, int width) {
+  return static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
 }
 
-void NearMisses::add(const Frame& frame, std::uint32_t triangle) {
+void add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& misses) {
   const std::vector<WindowPoint> polygon = window_polygon(frame.geometry, frame.rays, triangle);
   if (polygon.empty()) {
     return;
@@ -100,20 +97,34 @@ void NearMisses::add(const Frame& frame, std::uint32_t triangle) {
     const std::pair<int, int> covered = line.empty() || turns ? std::pair(0, 0) : pixels(extent(line, 0), 0.0, width);
     for (int x = touched.first; x < touched.second; ++x) {
       if (x < covered.first || x >= covered.second) {
-        misses_.push_back({pixel_at(x, y), triangle, reach});
+        misses.push_back({pixel_at(x, y, width), triangle, reach});
       }
     }
   }
 }
 
-std::uint64_t NearMisses::pixel_at(int x, int y) const {
-  return static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width_) + static_cast<std::uint64_t>(x);
+}  // namespace
+
+NearMisses::NearMisses(const Frame& frame) : width_(frame.rays.width()) {
+  constexpr std::size_t at_once = 1024;  // triangles
+  const std::size_t count = frame.geometry.triangle_count();
+  std::vector<std::vector<NearMiss>> parts((count + at_once - 1) / at_once);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+    for (std::size_t i = part * at_once; i < std::min(count, (part + 1) * at_once); ++i) {
+      add(frame, static_cast<std::uint32_t>(i), parts[part]);
+    }
+  });
+  for (const std::vector<NearMiss>& part : parts) {
+    misses_.insert(misses_.end(), part.begin(), part.end());
+  }
+  std::stable_sort(misses_.begin(), misses_.end(), [](const NearMiss& a, const NearMiss& b) { return a.pixel < b.pixel; });
 }
 
 NearMisses::Range NearMisses::at(int x, int y) const {
   const auto before = [](const NearMiss& miss, std::uint64_t pixel) { return miss.pixel < pixel; };
-  const auto first = std::lower_bound(misses_.begin(), misses_.end(), pixel_at(x, y), before);
-  const auto last = std::lower_bound(first, misses_.end(), pixel_at(x, y) + 1, before);
+  const std::uint64_t pixel = pixel_at(x, y, width_);
+  const auto first = std::lower_bound(misses_.begin(), misses_.end(), pixel, before);
+  const auto last = std::lower_bound(first, misses_.end(), pixel + 1, before);
   return {misses_.data() + (first - misses_.begin()), misses_.data() + (last - misses_.begin())};
 }
 

@@ -31,9 +31,6 @@ class NearMisses {
   Range at(int x, int y) const;
 
  private:
-  void add(const Frame& frame, std::uint32_t triangle);
-  std::uint64_t pixel_at(int x, int y) const;
-
   int width_;
   std::vector<NearMiss> misses_;  // by pixel
 };
