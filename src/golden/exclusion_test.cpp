@@ -1,6 +1,7 @@
 // Which pixels a golden leaves out of verdicts, and why.
 
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -119,13 +120,69 @@ TEST(Exclusion, ASliverBetweenTheLooksIsASurfaceOfItsOwn) {
   EXPECT_EQ(excluded(s, 1.0F), 0) << "it is hidden";
 }
 
+scene::Scene strips(const scene::Primitive& p) {
+  return test::scene_with(p, test::lambertian({0.5, 0.5, 0.5, 1.0}), test::orthographic_at(5.0, 1.0), {test::directional({0.0, 0.0, 1.0})});
+}
+
+TEST(Exclusion, AGapBetweenTheLooksMayShowWhatIsBehind) {
+  scene::Primitive p;
+  add_strip(p, 40.0, -40.0, sliver_from, white);
+  add_strip(p, 40.0, sliver_to, 40.0, white);
+  EXPECT_EQ(excluded(strips(p), 1.0F), 16) << "the pixels of a diagonal";
+  p = {};
+  add_strip(p, 40.0, -40.0, sliver_from, white);
+  add_strip(p, 40.0, sliver_from, 40.0, white);
+  EXPECT_EQ(excluded(strips(p), 1.0F), 0) << "both have both corners of the edge between them";
+  p = {};
+  add_strip(p, 40.0, -40.0, sliver_from, white);
+  add_strip(p, 39.0, sliver_from, 40.0, white);
+  EXPECT_EQ(excluded(strips(p), 1.0F), 16) << "a T-junction: corners that are moved by themselves";
+}
+
+TEST(Exclusion, ASliverOnTheEdgeOfWhatItLiesOnIsFoundWhicheverComesFirst) {
+  // It covers nothing that is not covered, and its every point is on an edge, by the digits of weights.
+  scene::Primitive sheet;
+  add_strip(sheet, 40.0, -40.0, sliver_from, white);
+  add_strip(sheet, 40.0, sliver_from, 40.0, white);
+  scene::Primitive sliver;
+  add_strip(sliver, 0.3, sliver_from - 1e-6, sliver_from, black);
+  const scene::Material material = test::lambertian({0.5, 0.5, 0.5, 1.0});
+  for (const bool first : {true, false}) {
+    scene::Scene s = strips(first ? sliver : sheet);
+    test::add(s, first ? sheet : sliver, material);
+    EXPECT_EQ(excluded(s, 1.0F), 1) << first;
+  }
+}
+
+TEST(Exclusion, ATriangleOfTwoCornersIsNothing) {
+  scene::Primitive p;
+  add_strip(p, 40.0, -40.0, 40.0, white);
+  const auto vertex = static_cast<std::uint32_t>(p.positions.size());
+  add_strip(p, 0.3, sliver_from, sliver_to, black);
+  p.indices.resize(6);
+  p.indices.insert(p.indices.end(), {vertex, vertex + 1, vertex});
+  EXPECT_EQ(excluded(strips(p), 1.0F), 0);
+}
+
+TEST(Exclusion, ABlendedSampleOnASharedEdgeIsBlendedOnce) {
+  // The square's diagonal runs through the centres of 16 pixels.
+  scene::Material glass = test::lambertian({0.5, 0.5, 0.5, 0.5});
+  glass.alpha_mode = scene::AlphaMode::Blend;
+  const scene::Scene s = plane(glass);
+  EXPECT_EQ(excluded(s, 1.0F), 0);
+  const image::Image golden = render(s, test::settings_for(16, 16, true));
+  for (int i = 0; i < 16; ++i) {
+    EXPECT_FLOAT_EQ(golden.at(i, i, golden.channel("A")), 0.5F) << i;
+    EXPECT_FLOAT_EQ(golden.at(i, 15 - i, golden.channel("A")), 0.5F) << i;
+  }
+}
+
 TEST(Exclusion, ASliverThatContinuesASurfaceIsPartOfTheBound) {
   scene::Primitive p;
   add_strip(p, 40.0, -40.0, sliver_from, white);
   add_strip(p, 40.0, sliver_from, sliver_to, black);
   add_strip(p, 40.0, sliver_to, 40.0, white);
-  const scene::Scene s =
-      test::scene_with(p, test::lambertian({0.5, 0.5, 0.5, 1.0}), test::orthographic_at(5.0, 1.0), {test::directional({0.0, 0.0, 1.0})});
+  const scene::Scene s = strips(p);
   const image::Image golden = render(s, test::settings_for(16, 16, true));
   EXPECT_EQ(golden.at(8, 7, golden.channel("excluded")), 0.0F);
   EXPECT_GT(golden.at(8, 7, 0), 0.1F);

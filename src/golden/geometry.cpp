@@ -117,6 +117,21 @@ std::optional<Hit> Geometry::meet(std::uint32_t triangle, const Ray& ray) const 
   return hit;
 }
 
+bool Geometry::share_edge(std::uint32_t triangle, int opposite, std::uint32_t other) const {
+  const Placed& instance = placed(triangle);
+  if (triangle == other || &instance != &placed(other)) {
+    return false;
+  }
+  const std::vector<glm::vec3>& positions = instance.primitive->positions;
+  const auto ours = local_vertices(triangle);
+  const auto theirs = local_vertices(other);
+  const auto is_corner_of_other = [&](int corner) {
+    const glm::vec3& place = positions[ours.at(static_cast<std::size_t>(corner % 3))];
+    return std::any_of(theirs.begin(), theirs.end(), [&](std::uint32_t vertex) { return positions[vertex] == place; });
+  };
+  return is_corner_of_other(opposite + 1) && is_corner_of_other(opposite + 2);
+}
+
 glm::dvec3 Geometry::face_normal(std::uint32_t triangle) const {
   const auto& v = vertices(triangle);
   const glm::dvec3 normal = glm::cross(positions_[v[1]] - positions_[v[0]], positions_[v[2]] - positions_[v[0]]);

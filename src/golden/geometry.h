@@ -65,6 +65,10 @@ class Geometry {
   /// meets the triangle's plane, and affine in where it crosses the picture.
   glm::dvec3 edge_volumes(std::uint32_t triangle, const Ray& ray) const;
 
+  /// Whether a triangle's edge, that opposite its corner of that number, is an edge of another triangle of its instance: between vertices
+  /// in the same places, which every vertex shader moves alike.
+  bool share_edge(std::uint32_t triangle, int opposite, std::uint32_t other) const;
+
   /// Unit normal of the triangle on its front side, world space.
   glm::dvec3 face_normal(std::uint32_t triangle) const;
 

@@ -1,6 +1,7 @@
 #include "golden/near_misses.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -60,8 +61,14 @@ std::uint64_t pixel_at(int x, int y, int width) {
 }
 
 void add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& misses) {
+  // Two corners in one place stay there.
+  const auto& positions = frame.geometry.placed(triangle).primitive->positions;
+  const std::array<std::uint32_t, 3> corners = frame.geometry.local_vertices(triangle);
+  const glm::vec3& a = positions[corners[0]];
+  const glm::vec3& b = positions[corners[1]];
+  const glm::vec3& c = positions[corners[2]];
   const std::vector<WindowPoint> polygon = window_polygon(frame.geometry, frame.rays, triangle);
-  if (polygon.empty()) {
+  if (polygon.empty() || a == b || b == c || c == a) {
     return;
   }
   const bool perspective = frame.rays.camera().perspective;

@@ -8,7 +8,8 @@
 
 namespace sheen::golden {
 
-/// A triangle that does not cover a pixel's centre, but may once a driver has moved its vertices.
+/// A triangle that does not cover a pixel's centre, but may once a driver has moved its vertices; or one that covers it, but may then do so
+/// the other way round.
 struct NearMiss {
   std::uint64_t pixel;  ///< y width + x
   std::uint32_t triangle;

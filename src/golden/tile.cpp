@@ -152,6 +152,7 @@ Tile::Plan Tile::plan(int x, int y) {
   double step = look_around(plan);
   if (plan.excluded == Exclusion::None) {
     step = std::max(step, look_at_near_misses(x, y, plan));
+    plan.excluded = plan.excluded == Exclusion::None && may_open(step) ? Exclusion::Surface : plan.excluded;
   }
   enclose(step);
   plan.last_bound = bounded_->count();

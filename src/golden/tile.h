@@ -78,6 +78,7 @@ class Tile {
   void look(double step, Plan& plan);
   double look_at_near_misses(int x, int y, Plan& plan);
   bool look_at(const NearMiss& miss, bool front, Plan& plan);
+  bool may_open(double step) const;
   void enclose(double step);
   Enclosed enclosed(const Plan& plan) const;
   void add_shifted();

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -98,7 +99,7 @@ double Tile::look_at_near_misses(int x, int y, Plan& plan) {
     const Placed& placed = frame_.geometry.placed(miss.triangle);
     for (const bool front : {true, false}) {
       const bool met = std::any_of(looks_.begin(), looks_.end(), [&](const Look& look) { return look.seen.shows(miss.triangle, front); });
-      if (!met && (front || placed.material->double_sided) && look_at(miss, front, plan)) {
+      if (plan.excluded == Exclusion::None && !met && (front || placed.material->double_sided) && look_at(miss, front, plan)) {
         farthest = std::max(farthest, miss.reach);
       }
     }
@@ -146,6 +147,46 @@ bool Tile::look_at(const NearMiss& miss, bool front, Plan& plan) {
   }
   looks_.push_back(std::move(look));
   return true;
+}
+
+// Whether a surface that is seen may open within the step, and let what lies behind it be seen: along an edge that no other triangle seen
+// there shares from corner to corner. Triangles that do share both are moved alike, and leave no gap (OpenGL ES 3.0.6, section 3.6.1); the
+// corners of others, of T-junctions and of meshes that merely touch, may be moved apart.
+bool Tile::may_open(double step) const {
+  std::vector<std::uint32_t> seen;
+  const auto note = [&seen](const Hit& hit) {
+    if (std::find(seen.begin(), seen.end(), hit.triangle) == seen.end()) {
+      seen.push_back(hit.triangle);
+    }
+  };
+  for (const Look& look : looks_) {
+    if (look.seen.nearest) {
+      note(*look.seen.nearest);
+    }
+    std::for_each(look.seen.blended.begin(), look.seen.blended.end(), note);
+  }
+  if (looks_.size() == looks_around && seen.size() == looks_[0].seen.blended.size() + (looks_[0].seen.nearest ? 1 : 0)) {
+    return false;  // each covers the whole step
+  }
+  const glm::dvec2 place(looks_[0].ray.x, looks_[0].ray.y);
+  return std::any_of(seen.begin(), seen.end(), [&](std::uint32_t triangle) {
+    const std::vector<WindowPoint> polygon = window_polygon(frame_.geometry, frame_.rays, triangle);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const WindowPoint& a = polygon[i];
+      const WindowPoint& b = polygon[(i + 1) % polygon.size()];
+      for (int opposite = 0; opposite < 3; ++opposite) {
+        if (a.weights[opposite] != 0.0 || b.weights[opposite] != 0.0 ||
+            around({a, b}, place, step, frame_.rays.camera().perspective).empty()) {
+          continue;
+        }
+        const auto shares = [&](std::uint32_t other) { return frame_.geometry.share_edge(triangle, opposite, other); };
+        if (std::none_of(seen.begin(), seen.end(), shares)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  });
 }
 
 // A driver whose grid moves an edge past a sample shades that sample with the triangles of the other side, carried on beyond the edge: with

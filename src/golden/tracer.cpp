@@ -93,7 +93,7 @@ struct Tracer::Impl {
   bool kept_by_mask(const Hit& hit, Query& query) const;
   bool consider(const Hit& hit, Query& query) const;
   std::optional<Hit> neighbour(const Hit& hit, const Ray& ray) const;
-  void settle_nearest(std::vector<Hit>& candidates, const Ray& ray, Seen& seen) const;
+  void settle_nearest(std::vector<Hit>& candidates, const Ray& ray, const Hit* also, Seen& seen) const;
   void settle_blended(const Ray& ray, Seen& seen) const;
 };
 
@@ -273,7 +273,7 @@ std::optional<Hit> Tracer::Impl::neighbour(const Hit& hit, const Ray& ray) const
   return query.found;
 }
 
-void Tracer::Impl::settle_nearest(std::vector<Hit>& candidates, const Ray& ray, Seen& seen) const {
+void Tracer::Impl::settle_nearest(std::vector<Hit>& candidates, const Ray& ray, const Hit* also, Seen& seen) const {
   if (candidates.empty()) {
     return;
   }
@@ -282,7 +282,13 @@ void Tracer::Impl::settle_nearest(std::vector<Hit>& candidates, const Ray& ray, 
   const double reach = first.t + depth_rounding * std::abs(first.t);
   const auto inside =
       std::find_if(candidates.begin(), candidates.end(), [&](const Hit& h) { return h.smallest_weight() >= 0.0 && h.t <= reach; });
-  if (inside != candidates.end()) {
+  // What was asked for is shown, too, if a depth buffer may not tell it from what is nearest.
+  const auto asked = std::find_if(candidates.begin(), candidates.end(), [&](const Hit& h) {
+    return also != nullptr && h.triangle == also->triangle && h.t - first.t <= std::max(reach - first.t, depth_tolerance(first.t));
+  });
+  if (asked != candidates.end()) {
+    seen.nearest = *asked;
+  } else if (inside != candidates.end()) {
     seen.nearest = *inside;
   } else {
     const std::optional<Hit> other = neighbour(first, ray);
@@ -295,7 +301,8 @@ void Tracer::Impl::settle_nearest(std::vector<Hit>& candidates, const Ray& ray, 
     if (h.triangle == seen.nearest->triangle || !strictly_inside || std::abs(h.t - seen.nearest->t) > tolerance) {
       continue;
     }
-    if (std::abs(h.t - seen.nearest->t) <= 1e-12 * std::abs(h.t) && h.triangle < seen.nearest->triangle) {
+    const bool wins = asked == candidates.end() && h.triangle < seen.nearest->triangle;
+    if (wins && std::abs(h.t - seen.nearest->t) <= 1e-12 * std::abs(h.t)) {
       seen.tie = seen.nearest;
       seen.nearest = h;
     } else if (!seen.tie || nearer(h, *seen.tie)) {
@@ -319,8 +326,19 @@ void Tracer::Impl::settle_blended(const Ray& ray, Seen& seen) const {
   seen.blended.erase(std::remove_if(seen.blended.begin(), seen.blended.end(), hidden), seen.blended.end());
   const auto rank = [&](const Hit& h) { return blend_rank[h.triangle]; };
   std::sort(seen.blended.begin(), seen.blended.end(), [&](const Hit& a, const Hit& b) { return rank(a) < rank(b); });
-  const auto same = [](const Hit& a, const Hit& b) { return a.triangle == b.triangle; };
-  seen.blended.erase(std::unique(seen.blended.begin(), seen.blended.end(), same), seen.blended.end());
+  // A sample exactly on an edge that two triangles share is covered by one of them.
+  const auto same = [this](const Hit& a, const Hit& b) {
+    const bool on_one_edge = a.smallest_weight() <= 0.0 && b.smallest_weight() <= 0.0 && a.front == b.front &&
+                             &geometry.placed(a.triangle) == &geometry.placed(b.triangle) && std::abs(a.t - b.t) <= 1e-12 * std::abs(a.t);
+    return a.triangle == b.triangle || on_one_edge;
+  };
+  std::vector<Hit> covering;
+  for (const Hit& hit : seen.blended) {
+    if (std::none_of(covering.begin(), covering.end(), [&](const Hit& other) { return same(other, hit); })) {
+      covering.push_back(hit);
+    }
+  }
+  seen.blended.swap(covering);
 }
 
 Tracer::Tracer(const scene::Scene& scene, const Geometry& geometry, const SurfaceReader& reader, const RayGenerator& rays)
@@ -372,7 +390,7 @@ void Tracer::trace(const Ray& ray, bool with_masked, Seen& seen, const Hit* also
   cast.ray.mask = ~0u;
   cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scene.get(), &query.context, &cast);
-  impl_->settle_nearest(query.candidates, ray, seen);
+  impl_->settle_nearest(query.candidates, ray, also, seen);
   impl_->settle_blended(ray, seen);
   const bool clip_decides = std::isfinite(query.nearest_at_clip_plane) && (!seen.nearest || query.nearest_at_clip_plane <= seen.nearest->t);
   seen.ambiguous = seen.ambiguous || clip_decides;

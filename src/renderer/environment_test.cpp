@@ -244,9 +244,8 @@ TEST(ImageSampling, NoLightAtAllIsDrawnFromEvenly) {
 }
 
 TEST(ImageSampling, FindsEachPartOfTheLightNearlyInItsShare) {
-  // Of 1,024 directions toward skies of lamps, how many fall into each of 8 x 4 parts: chi squared, by its degrees of freedom. At random it
-  // is
-  // 1. Where a row was chosen before a column it was 0.26.
+  // Of 1,024 directions toward skies of lamps, how many fall into each of 8 x 4 parts: chi squared, by its degrees of freedom. Directions
+  // at random give 1, and 0.26 where a row is chosen before a column.
   constexpr int count = 1024;
   constexpr int skies = 32;
   double sum = 0.0;
