@@ -67,8 +67,11 @@ void add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& miss
   const glm::vec3& a = positions[corners[0]];
   const glm::vec3& b = positions[corners[1]];
   const glm::vec3& c = positions[corners[2]];
+  if (a == b || b == c || c == a) {
+    return;
+  }
   const std::vector<WindowPoint> polygon = window_polygon(frame.geometry, frame.rays, triangle);
-  if (polygon.empty() || a == b || b == c || c == a) {
+  if (polygon.empty()) {
     return;
   }
   const bool perspective = frame.rays.camera().perspective;
