@@ -17,11 +17,6 @@ namespace sheen::number {
 template <class Precision>
 struct Apart : Precision {};
 
-/// An exact result before its rounding: affine form and range.
-struct ExactBatch {
-  Batch center, shift_x, shift_y, radius, lower, upper;
-};
-
 /// Four of number::Bounded, of four samples, at once: a lane is what number::Bounded makes of the lane's operands. Rare cases, as an
 /// operation on two exact numbers, are handed to it. The elementary functions are xsimd's, within 2 ulp of double.
 template <class Precision>
@@ -40,6 +35,14 @@ class BoundedBatch {
         radius_(one.radius()),
         lower_(one.range().lower),
         upper_(one.range().upper) {}
+
+  /// A form with its range, in double and not to be rounded; unbounded in some lanes.
+  static BoundedBatch of_form(const ExactBatch& x, const BatchMask& unbounded) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    BoundedBatch b(x.center, x.shift_x, x.shift_y, x.radius, x.lower, x.upper);
+    if (xsimd::any(unbounded)) b.take(unbounded, {x.center, Batch(0.0), Batch(0.0), Batch(infinity), Batch(-infinity), Batch(infinity)});
+    return b;
+  }
 
   const Batch& center() const { return center_; }
   const Batch& shift_x() const { return shift_x_; }
@@ -192,7 +195,10 @@ class BoundedBatch {
   ExactBatch as_exact() const { return {center_, shift_x_, shift_y_, radius_, lower_, upper_}; }
 
   /// Becomes the exact result after the operation's error. @param keeps_sign  correct rounding never passes zero
-  void round(const Exact& x, const Error& error, bool keeps_sign) {
+  void round(const Exact& x, const Error& error, bool keeps_sign) { round_here(x, error, keeps_sign); }
+
+  /// The same where it is called, into which the error's kind is folded.
+  [[gnu::always_inline]] void round_here(const Exact& x, const Error& error, bool keeps_sign) {
     center_ = x.center;
     shift_x_ = x.shift_x;
     shift_y_ = x.shift_y;
@@ -307,16 +313,20 @@ class BoundedBatch {
     const BatchMask exact_a = a.is_exact();
     const BatchMask exact_b = b.is_exact();
     const BatchMask both = exact_a & exact_b;
-    if (!xsimd::all(narrow)) {
-      const Exact exact{a.center_ + b.center_, a.shift_x_ + b.shift_x_,       a.shift_y_ + b.shift_y_,
-                        a.radius_ + b.radius_, sum_below(a.lower_, b.lower_), -sum_below(-a.upper_, -b.upper_)};
-      take_rounded(exact, ~narrow);
-    }
+    BatchMask done = narrow | both;
     if (Precision::holds_its_format) {
       const BatchMask a_is_0 = exact_a & (a.center_ == Batch(0.0)) & ~both;
       const BatchMask b_is_0 = exact_b & (b.center_ == Batch(0.0)) & ~both;
-      take(a_is_0, b);
-      take(b_is_0, a);
+      if (xsimd::any(a_is_0 | b_is_0)) {
+        take(a_is_0, b);
+        take(b_is_0, a);
+        done = done | a_is_0 | b_is_0;
+      }
+    }
+    if (!xsimd::all(done)) {
+      const Exact exact{a.center_ + b.center_, a.shift_x_ + b.shift_x_,       a.shift_y_ + b.shift_y_,
+                        a.radius_ + b.radius_, sum_below(a.lower_, b.lower_), -sum_below(-a.upper_, -b.upper_)};
+      take_rounded(exact, ~done);
     }
     settle(
         both, a.is_unbounded() | b.is_unbounded(), [](const One& x, const One& y) { return x + y; }, a, b);
@@ -329,25 +339,17 @@ class BoundedBatch {
     const BatchMask exact_b = b.is_exact();
     const BatchMask both = exact_a & exact_b;
     const bool squared = &a == &b;
-    if (!xsimd::all(narrow)) {
+    const BatchMask scaled = take_scaled(a, b, exact_b & ~both) | take_scaled(b, a, exact_a & ~both);
+    const BatchMask wide = ~(narrow | scaled | both);
+    if (xsimd::any(wide)) {
       Exact exact{center_, shift_x_, shift_y_, exact_radius, Batch(0.0), Batch(0.0)};
       if (squared) {
-        const Batch smallest = xsimd::max(xsimd::max(a.lower_, -a.upper_), Batch(0.0));
-        exact.lower = product_beside(smallest, smallest, -1);
-        exact.upper = product_beside(a.magnitude(), a.magnitude(), 1);
+        extremes_of_square(a.lower_, a.upper_, exact.lower, exact.upper);
       } else {
-        const auto extreme = [&](int side) {
-          const auto of = [side](const Batch& x, const Batch& y) { return side < 0 ? xsimd::min(x, y) : xsimd::max(x, y); };
-          return of(of(product_beside(a.lower_, b.lower_, side), product_beside(a.lower_, b.upper_, side)),
-                    of(product_beside(a.upper_, b.lower_, side), product_beside(a.upper_, b.upper_, side)));
-        };
-        exact.lower = extreme(-1);
-        exact.upper = extreme(1);
+        extremes_of_product(a.lower_, a.upper_, b.lower_, b.upper_, exact.lower, exact.upper);
       }
-      take_rounded(exact, ~narrow);
+      take_rounded(exact, wide);
     }
-    take_scaled(a, b, exact_b & ~both);
-    take_scaled(b, a, exact_a & ~both);
     const auto multiply = [squared](const One& x, const One& y) { return squared ? x * x : x * y; };
     settle(both, a.is_unbounded() | b.is_unbounded(), multiply, a, b);
   }
@@ -355,14 +357,14 @@ class BoundedBatch {
   /// In these lanes, this becomes what a sum or product is after its rounding.
   void take_rounded(const Exact& exact, const BatchMask& where) {
     BoundedBatch out;
-    out.round(exact, Error::ulps(Batch(1.0)), true);
+    out.round_here(exact, Error::ulps(Batch(1.0)), true);
     take(where, out);
   }
 
-  /// Becomes x times an exact factor in the lanes where that is exact. @param exact  where the factor is
-  void take_scaled(const BoundedBatch& x, const BoundedBatch& factor, const BatchMask& exact) {
+  /// Becomes x times an exact factor in the lanes where that is exact, which are returned. @param exact  where the factor is
+  BatchMask take_scaled(const BoundedBatch& x, const BoundedBatch& factor, const BatchMask& exact) {
     const BatchMask candidates = exact & has_no_fraction(factor.center_);
-    if (!Precision::holds_its_format || !xsimd::any(candidates)) return;
+    if (!Precision::holds_its_format || !xsimd::any(candidates)) return BatchMask(false);
     const Batch by = factor.center_;
     const Batch size = xsimd::abs(by);
     const Batch smallest = xsimd::max(x.lower_, -x.upper_) * size;
@@ -371,6 +373,7 @@ class BoundedBatch {
     const Batch lower = x.lower_ * by;
     const Batch upper = x.upper_ * by;
     take(scales, {x.center_ * by, x.shift_x_ * by, x.shift_y_ * by, x.radius_ * size, xsimd::min(lower, upper), xsimd::max(lower, upper)});
+    return scales;
   }
 
   template <class Operation, class... Operands>
