@@ -1,5 +1,6 @@
 #include "albedo/interpolant.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
@@ -148,6 +149,58 @@ double Interpolant::operator()(double n_dot_v, double sheen_roughness) const {
     return directional_albedo(impl_->visibility, cosine_of(t), r);
   }
   return std::exp(patch.at(1 - 2 * (u - Curve::start_of(ix)) / Curve::length_of(ix), 1 - 2 * (v - iy)) - drop);
+}
+
+std::array<Interpolant::Triple, 3> Interpolant::grid(const Triple& n_dot_v, const Triple& sheen_roughness) const {
+  std::array<Triple, 3> e{};
+  const double least_r = *std::min_element(sheen_roughness.begin(), sheen_roughness.end());
+  const double largest_r = std::min(*std::max_element(sheen_roughness.begin(), sheen_roughness.end()), 1.0);
+  Triple t{}, log_peak{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    t[i] = half_elevation_tangent(std::min(std::max(n_dot_v[i], min_n_dot_v), 1.0));
+    log_peak[i] = log_peak_drop(t[i], 1.0);
+  }
+  if (!(largest_r > 0) || !(*std::min_element(log_peak.begin(), log_peak.end()) < negligible_drop * largest_r * largest_r)) {
+    return e;
+  }
+  Triple place_x{}, place_y{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    place_x[i] = std::log(t[i]) / -patch_x;
+    place_y[i] = least_r > 0 ? std::log(std::min(sheen_roughness[i], 1.0)) / -patch_y : 0;
+  }
+  const auto same = [](int a, int b, int c) { return a == b && b == c; };
+  const auto row_at = [](double v) { return v < patches_y ? static_cast<int>(v) : patches_y - 1; };
+  const int ix = Curve::patch_at(place_x[0]), iy = row_at(place_y[0]);
+  const Patch* patch = nullptr;
+  if (least_r > 0 && same(ix, Curve::patch_at(place_x[1]), Curve::patch_at(place_x[2])) &&
+      same(iy, row_at(place_y[1]), row_at(place_y[2]))) {
+    patch = &impl_->patch(ix, iy);
+  }
+  if (patch == nullptr || !patch->usable) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        e[j][i] = (*this)(n_dot_v[i], sheen_roughness[j]);
+      }
+    }
+    return e;
+  }
+  std::array<Nodes, 3> rows;
+  for (std::size_t j = 0; j < 3; ++j) {
+    rows[j] = patch->row(1 - 2 * (place_y[j] - iy));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Nodes shares = chebyshev().shares(1 - 2 * (place_x[i] - Curve::start_of(ix)) / Curve::length_of(ix));
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double r = std::min(sheen_roughness[j], 1.0);
+      const double drop = log_peak[i] * (1 / (r * r));
+      double h = 0;
+      for (int k = 0; k < nodes; ++k) {
+        h += shares[k] * rows[j][k];
+      }
+      e[j][i] = drop < negligible_drop ? std::exp(h - drop) : 0;
+    }
+  }
+  return e;
 }
 
 Curve Interpolant::at_roughness(double sheen_roughness) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "albedo/curve.h"
@@ -20,6 +21,11 @@ class Interpolant {
 
   /// E; arguments as for directional_albedo. Cosines below min_n_dot_v count as min_n_dot_v.
   double operator()(double n_dot_v, double sheen_roughness) const;
+
+  using Triple = std::array<double, 3>;
+  /// The same at each of three cosines with each of three roughnesses, [roughness][cosine], to rounding; at the price of two or three, if
+  /// they lie close together.
+  std::array<Triple, 3> grid(const Triple& n_dot_v, const Triple& sheen_roughness) const;
 
   /// The same at one roughness, for any number type. This must outlive it.
   Curve at_roughness(double sheen_roughness) const;

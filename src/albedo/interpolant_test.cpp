@@ -55,6 +55,30 @@ TEST(Interpolant, HoldsAtItsCorners) {
   EXPECT_EQ(interpolant(0, 0.5), interpolant(min_n_dot_v, 0.5)) << "cosines are floored";
 }
 
+// Close together, across the borders of patches, beyond the ranges, and where there is nothing.
+TEST(Interpolant, GivesThreeByThreeAtOnce) {
+  std::mt19937 generator(13);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+    const Interpolant interpolant(visibility);
+    for (int i = 0; i < 600; ++i) {
+      const double step = i % 3 == 0 ? 0.1 : 1e-6;
+      const double mu = i % 2 == 0 ? 1.02 * unit(generator) : std::exp(std::log(min_n_dot_v) * unit(generator));
+      const double r = i % 7 == 0 ? 0.0 : i % 5 == 0 ? std::exp(std::log(1e-6) * unit(generator)) : 1.02 * unit(generator);
+      const Interpolant::Triple cosines{mu - step, mu, mu + step};
+      const Interpolant::Triple roughnesses{r * (1 - step), r, r * (1 + step)};
+      const auto grid = interpolant.grid(cosines, roughnesses);
+      for (std::size_t j = 0; j < 3; ++j) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double e = interpolant(cosines.at(k), roughnesses.at(j));
+          EXPECT_NEAR(grid.at(j).at(k), e, 1e-12 * std::max(e, 1e-3))
+              << "n_dot_v " << cosines.at(k) << " sheen_roughness " << roughnesses.at(j);
+        }
+      }
+    }
+  }
+}
+
 TEST(Interpolant, GivesEveryThreadTheSame) {
   const Interpolant interpolant(Visibility::Ashikhmin);
   std::vector<double> parallel(4000), serial(4000);

@@ -18,6 +18,7 @@ namespace sheen::albedo {
 template <class Real>
 Real lookup_error(Real e, Real n_dot_v, Real sheen_roughness) {
   using brdf::abs;
+  using brdf::any;
   using brdf::log;
   using brdf::max;
   using brdf::min;
@@ -28,6 +29,11 @@ Real lookup_error(Real e, Real n_dot_v, Real sheen_roughness) {
   const Real r = min(sheen_roughness, Real(1));
   const Real t = half_elevation_tangent(min(max(n_dot_v, Real(min_n_dot_v)), Real(1)));
   const Real drop = log_peak_drop(t, r);
+  // E is below 1e-7 of what interpolation leaves; and up to min_roughness neither reads a table.
+  const auto counts = drop <= Real(25);
+  if (!any(counts)) {
+    return select(r > Real(Table::min_roughness), beyond_rounding, Real(0));
+  }
   const Real x = abs(log(t));
   const Real y = abs(log(r));
   const Real column = (max(Real(4) * epsilon * x, logarithm) + Real(9.5) * epsilon + Real(3.5) * epsilon * x) * Real(1 / Table::step_x);
@@ -39,8 +45,7 @@ Real lookup_error(Real e, Real n_dot_v, Real sheen_roughness) {
   const Real log_e = abs(log(e));
   const Real exponent = h + Real(33) * epsilon * drop + epsilon * log_e;
   const Real rounding = e * (exponent + (Real(4) + Real(2) * log_e) * epsilon);
-  // E is below 1e-7 of what interpolation leaves; and up to min_roughness neither reads a table.
-  const Real rounding_that_counts = select(drop > Real(25), Real(0), rounding);
+  const Real rounding_that_counts = select(counts, rounding, Real(0));
   return select(r > Real(Table::min_roughness), beyond_rounding + rounding_that_counts, Real(0));
 }
 

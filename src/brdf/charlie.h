@@ -8,16 +8,21 @@ namespace sheen::brdf {
 /// alpha_g leaves the range of floats soon.
 inline constexpr double smallest_alpha_g = 9e-10;
 
-/// charlie_distribution() of the squares of cosine and sine.
+/// The exponent p of sin^2(theta_h) in charlie_distribution().
 template <class Real>
-Real charlie_distribution_of_squares(Real alpha_g, Real cos2, Real sin2_theta_h) {
-  const Real p = Real(0.5) / alpha_g;
+Real charlie_exponent(Real alpha_g) {
+  return Real(0.5) / alpha_g;
+}
+
+/// charlie_distribution() of the squares of cosine and sine. @param p  charlie_exponent(), found once a material
+template <class Real>
+Real charlie_distribution_of_squares(Real alpha_g, Real p, Real cos2, Real sin2_theta_h) {
   // log1p keeps the digits of a small cosine that "1 - cos2" loses and that a large exponent would magnify.
   // At N.H = 1, where D is 0, a logarithm of 1e-30 leaves less than 1e-15 of it.
   const Real log_sin2 = select_of(
       cos2 < Real(0.25), [&] { return Real(log1p(-min(cos2, Real(0.25)))); }, [&] { return Real(log(max(sin2_theta_h, Real(1e-30)))); });
-  const Real d = (Real(1) + p) * exp(p * log_sin2) * Real(1 / pi);
-  return select(alpha_g > Real(smallest_alpha_g), d, Real(0));
+  const auto d = [&] { return Real((Real(1) + p) * exp(p * log_sin2) * Real(1 / pi)); };
+  return select_of(alpha_g > Real(smallest_alpha_g), d, [] { return Real(0); });
 }
 
 /// The "Charlie" distribution D of the sheen lobe, in 1/sr: an exponentiated sinusoid, Conty Estevez and Kulla 2017, equation 2
@@ -29,7 +34,7 @@ Real charlie_distribution_of_squares(Real alpha_g, Real cos2, Real sin2_theta_h)
 template <class Real>
 Real charlie_distribution(Real alpha_g, Real n_dot_h, Real sin2_theta_h) {
   const Real cos2 = n_dot_h * n_dot_h;
-  return charlie_distribution_of_squares(alpha_g, cos2, sin2_theta_h);
+  return charlie_distribution_of_squares(alpha_g, charlie_exponent(alpha_g), cos2, sin2_theta_h);
 }
 
 /// The curve l(x) of the shadowing term Lambda, with its five coefficients at one alpha_g, so that they are found once a material:

@@ -13,8 +13,11 @@ inline constexpr double mirror_alpha = 1e-9;
 /// @param n_dot_h, sin2_theta_h  cosine and squared sine |N x H|^2 of the half vector's angle, [0, 1]
 template <class Real>
 Real ggx_distribution(Real alpha, Real n_dot_h, Real sin2_theta_h) {
-  const Real k = alpha / (sin2_theta_h + alpha * alpha * n_dot_h * n_dot_h);
-  return select(alpha > Real(mirror_alpha), k * k * Real(1 / pi), Real(0));
+  const auto distribution = [&] {
+    const Real k = alpha / (sin2_theta_h + alpha * alpha * n_dot_h * n_dot_h);
+    return Real(k * k * Real(1 / pi));
+  };
+  return select_of(alpha > Real(mirror_alpha), distribution, [] { return Real(0); });
 }
 
 /// Height-correlated Smith visibility G / (4 N.L N.V) of GGX, in 1/sr: Heitz 2014, equation 99; glTF 2.0 Appendix B.3.2.
@@ -31,8 +34,8 @@ Real smith_visibility(Real alpha, Real n_dot_l, Real n_dot_v) {
 /// above.
 template <class Real>
 Real specular_ggx(Real alpha, Real n_dot_l, Real n_dot_v, Real n_dot_h, Real sin2_theta_h) {
-  const Real lobe = ggx_distribution(alpha, n_dot_h, sin2_theta_h) * smith_visibility(alpha, n_dot_l, n_dot_v);
-  return select(alpha > Real(mirror_alpha), lobe, Real(0));
+  const auto lobe = [&] { return Real(ggx_distribution(alpha, n_dot_h, sin2_theta_h) * smith_visibility(alpha, n_dot_l, n_dot_v)); };
+  return select_of(alpha > Real(mirror_alpha), lobe, [] { return Real(0); });
 }
 
 }  // namespace sheen::brdf

@@ -17,6 +17,7 @@ class SheenLobe {
   SheenLobe(Visibility visibility, Real sheen_roughness, Real n_dot_v)
       : visibility_(visibility),
         alpha_g_(Wide::widened(sheen_roughness) * Wide::widened(sheen_roughness)),
+        exponent_(charlie_exponent(alpha_g_)),
         n_dot_v_(n_dot_v),
         lambda_v_(Real(0)) {
     if (visibility_ != Visibility::Ashikhmin) {
@@ -28,7 +29,8 @@ class SheenLobe {
 
   /// D, in 1/sr; see charlie_distribution.
   Real distribution(Real n_dot_h, Real sin2_theta_h) const {
-    return Wide::narrowed(charlie_distribution_of_squares(alpha_g_, Wide::widened(n_dot_h * n_dot_h), Wide::widened(sin2_theta_h)));
+    const auto cos2 = Wide::widened(n_dot_h * n_dot_h);
+    return Wide::narrowed(charlie_distribution_of_squares(alpha_g_, exponent_, cos2, Wide::widened(sin2_theta_h)));
   }
 
   /// V times N.L, in 1/sr. @param n_dot_l  [0, 1]
@@ -48,7 +50,7 @@ class SheenLobe {
   using Wide = Exponents<Real>;
 
   Visibility visibility_;
-  typename Wide::Type alpha_g_;
+  typename Wide::Type alpha_g_, exponent_;
   Real n_dot_v_;
   LambdaCurve<Real> curve_{};
   Real lambda_v_;

@@ -40,7 +40,7 @@ class Surfaces {
     const bool nothing = count_++ % 9 == 0;  // certainly no direction
     const Vec3<Bound> none{Bound(0.5), Bound(0.5), Bound(0.5)};
     const Vec3<Bound> code{moving(uniform()), moving(uniform()), moving(0.5 + 0.5 * uniform())};
-    return {unit({1.0, 0.2, 0.1}), unit({0.1, 1.0, -0.3}), unit({0.1, 0.2, 1.0}), nothing ? none : code, moving(1.0), Bound(-1.0)};
+    return {unit({1.0, 0.2, 0.1}), unit({0.1, 0.2, 1.0}), Bound(-1.0), nothing ? none : code, moving(1.0), Bound(-1.0)};
   }
 
  private:
@@ -74,6 +74,17 @@ void expect_same(const Bound& one, const Bound& four) {
   }
 }
 
+/// Four at a time, highp is shaded without ranges where that holds all: then hardly more lies about the same centre.
+void expect_alike(const Bound& one, const Bound& four) {
+  ASSERT_EQ(one.is_bounded(), four.is_bounded());
+  if (one.is_bounded()) {
+    const bool is_wide = one.deviation() > 1e-2 * std::abs(one.center());
+    EXPECT_NEAR(one.center(), four.center(), 1e-12 * (std::abs(one.center()) + one.deviation()));
+    EXPECT_GE(four.deviation(), (1.0 - 1e-9) * one.deviation());
+    EXPECT_LE(four.deviation(), (is_wide ? 2.0 : 1.2) * one.deviation());
+  }
+}
+
 struct Comparison {
   std::vector<Surface<Bound>> surfaces;
   std::vector<PreparedLight> lights;
@@ -102,10 +113,11 @@ struct Comparison {
     const BoundJob job{surfaces.data(), order.data(), order.size(), layers, lobes};
     bound_all_scalar(job, lighting, one.data());
     bound_all_batch(job, lighting, four.data());
+    const auto expect = lobes == Precision::Mediump ? expect_same : expect_alike;
     for (std::size_t i = 0; i < one.size(); ++i) {
-      expect_same(one[i].r, four[i].r);
-      expect_same(one[i].g, four[i].g);
-      expect_same(one[i].b, four[i].b);
+      expect(one[i].r, four[i].r);
+      expect(one[i].g, four[i].g);
+      expect(one[i].b, four[i].b);
       bounded += one[i].r.is_bounded() ? 1 : 0;
       if (::testing::Test::HasFailure()) {
         FAIL() << "surface " << i;
@@ -165,10 +177,13 @@ TEST(BoundAll, CurvesAboutOneRoughnessAgreeWithTheInterpolant) {
   std::vector<brdf::Rgb<Bound>> slow(c.surfaces.size());
   std::vector<brdf::Rgb<Bound>> fast(c.surfaces.size());
   const BoundJob job{c.surfaces.data(), order.data(), order.size(), {true, false}, Precision::Highp};
+  std::vector<brdf::Rgb<Bound>> four(c.surfaces.size());
   bound_all_scalar(job, lighting, slow.data());
   lighting.albedo.around = &around;
-  bound_all(job, lighting, fast.data());
+  bound_all_scalar(job, lighting, fast.data());
+  bound_all(job, lighting, four.data());
   for (const std::uint32_t i : order) {
+    expect_alike(fast[i].g, four[i].g);
     EXPECT_EQ(slow[i].g.is_bounded(), fast[i].g.is_bounded());
     if (slow[i].g.is_bounded()) {
       EXPECT_NEAR(slow[i].g.center(), fast[i].g.center(), 1e-9 * (1.0 + slow[i].g.center()));

@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <cstring>
+#include <optional>
 
 #include "albedo/lookup_error.h"
 #include "golden/batches.h"
 #include "golden/bound_all.h"
+#include "number/affine_batch.h"
 #include "number/bounded_batch_functions.h"
 
 namespace sheen::brdf {
@@ -104,6 +107,41 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
 template <class Precision>
 inline constexpr bool finds_lookup_error<number::BoundedBatch<Precision>> = false;
 
+/// Of forms without ranges: BoundedBatch's, less the range.
+template <class Precision>
+struct AlbedoReader<number::AffineBatch<Precision>> {
+  using A = number::AffineBatch<Precision>;
+  using Bounds = AlbedoReader<number::BoundedBatch<Precision>>;
+
+  static A sheen(const SheenAlbedo& albedo, const A& cosine, const A& sheen_roughness) {
+    return A(Bounds::sheen(albedo, cosine.bounds(), sheen_roughness.bounds()));
+  }
+  template <class Read>
+  static A for_light(const A& e_v, const A& n_dot_l, const A& n_dot_v, const Read& read) {
+    const number::BatchMask smaller = (n_dot_v.lower() >= Batch(decreasing_from)) & (n_dot_l.lower() >= n_dot_v.upper());
+    if (xsimd::all(smaller)) {
+      return e_v;
+    }
+    A e = read();
+    e.take(smaller, e_v);
+    return e;
+  }
+  static brdf::LobeAlbedo<A> ggx(const albedo::GgxInterpolant& ggx, const A& cosine, const A& alpha) {
+    return form(Bounds::ggx(ggx, cosine.bounds(), alpha.bounds()));
+  }
+  static brdf::LobeAlbedo<A> ggx_average(const albedo::GgxInterpolant& ggx, const A& alpha) {
+    return form(Bounds::ggx_average(ggx, alpha.bounds()));
+  }
+
+ private:
+  static brdf::LobeAlbedo<A> form(const brdf::LobeAlbedo<number::BoundedBatch<Precision>>& albedo) {
+    return {A(albedo.loss), A(albedo.bias)};
+  }
+};
+
+template <class Precision>
+inline constexpr bool finds_lookup_error<number::AffineBatch<Precision>> = false;
+
 /// unit_or() of mapped_normal.h in every lane.
 template <class Precision, class Otherwise>
 Vec3<number::BoundedBatch<Precision>> unit_or(const Vec3<number::BoundedBatch<Precision>>& v, const Otherwise& otherwise) {
@@ -133,15 +171,71 @@ void bend_all_batch(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bou
   }
 }
 
+namespace {
+
+using Many = number::BoundedBatch<number::Highp>;
+using Forms = number::AffineBatch<number::Highp>;
+
+brdf::Rgb<Forms> forms_of(const brdf::Rgb<Many>& c) {
+  return {Forms(c.r), Forms(c.g), Forms(c.b)};
+}
+
+const brdf::Rgb<Forms>& forms_of(const brdf::Rgb<Forms>& c) {
+  return c;
+}
+
+Surface<Forms> forms_of(const Surface<Many>& surface) {
+  constexpr std::size_t numbers = sizeof(Surface<Many>) / sizeof(Many);
+  static_assert(sizeof(Surface<Forms>) == numbers * sizeof(Forms));
+  Surface<Forms> out;
+  for (std::size_t i = 0; i < numbers; ++i) {
+    Many one;
+    std::memcpy(static_cast<void*>(&one), reinterpret_cast<const char*>(&surface) + i * sizeof(Many), sizeof(one));
+    const Forms form(one);
+    std::memcpy(reinterpret_cast<char*>(&out) + i * sizeof(Forms), static_cast<const void*>(&form), sizeof(form));
+  }
+  return out;
+}
+
+bool is_lost(const brdf::Rgb<Forms>& c) {
+  return xsimd::any(c.r.is_lost() | c.g.is_lost() | c.b.is_lost());
+}
+
+/// shade(), light by light without ranges where that holds all lanes, else with them; summed in the shader's order.
+brdf::Rgb<Many> shade_by_forms(const Surface<Many>& surface, Layers layers, const Lighting& lighting) {
+  const Surface<Forms> form = forms_of(surface);
+  const Shading<Forms, Forms> quick(form, layers, lighting);
+  std::optional<Shading<Many, Many>> made;
+  const auto careful = [&]() -> const Shading<Many, Many>& { return made ? *made : made.emplace(surface, layers, lighting); };
+  brdf::Rgb<Forms> radiance = quick.emission();
+  if (is_lost(radiance)) {
+    radiance = forms_of(careful().emission());
+  }
+  // What a surface has no layer for, adds zeros, which change nothing.
+  const auto sum = [&](const auto& part) {
+    brdf::Rgb<Forms> c = layers.sheen ? radiance + forms_of(part.sheen) : radiance;
+    c = c + forms_of(part.base);
+    return layers.clearcoat ? c + forms_of(part.coat) : c;
+  };
+  brdf::Rgb<Forms> no_lookup;
+  brdf::Rgb<Many> none;
+  for (std::size_t i = 0; i < lighting.light_count; ++i) {
+    const brdf::Rgb<Forms> lit = sum(quick.light(arriving(lighting.lights[i], form.position), false, no_lookup));
+    radiance = is_lost(lit) ? sum(careful().light(arriving(lighting.lights[i], surface.position), false, none)) : lit;
+  }
+  return {radiance.r.bounds(), radiance.g.bounds(), radiance.b.bounds()};
+}
+
+}  // namespace
+
 void bound_all_batch(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
-  using Many = number::BoundedBatch<number::Highp>;
   using Lobes = number::BoundedBatch<number::Mediump>;
   for (std::size_t i = 0; i < job.count; i += Many::lanes) {
     const std::size_t here = std::min(job.count - i, Many::lanes);
     const auto surfaces = gather<Surface<Many>>(job.surfaces, job.order + i, here);
-    const brdf::Rgb<Many> radiance = (job.lobes == Precision::Mediump ? shade_with<Lobes>(surfaces, job.layers, lighting, NoListener{})
-                                                                      : shade(surfaces, job.layers, lighting, NoListener{}))
-                                         .radiance;
+    const brdf::Rgb<Many> radiance = job.lobes == Precision::Mediump
+                                         ? shade_with<Lobes>(surfaces, job.layers, lighting, NoListener{}).radiance
+                                         : shade_by_forms(surfaces, job.layers, lighting);
     scatter(radiance, job.order + i, here, results);
   }
 }

@@ -27,7 +27,16 @@ struct AlbedoReader<number::Bounded<Precision>> {
       };
       return read(curve, error, cosine, sheen_roughness);
     }
-    return read(at_ends(*albedo.interpolant, sheen_roughness), error, cosine, sheen_roughness);
+    if (!cosine.is_bounded() || !sheen_roughness.is_bounded() || sheen_roughness.is_exact()) {
+      return read(at_ends(*albedo.interpolant, sheen_roughness), error, cosine, sheen_roughness);
+    }
+    const auto three = [](const B& x) { return albedo::Interpolant::Triple{x.range().lower, x.center(), x.range().upper}; };
+    const auto grid = albedo.interpolant->grid(three(cosine), three(sheen_roughness));
+    const auto curve = [&](double c, End roughness) {
+      const std::size_t column = c == cosine.center() ? 1 : c == cosine.range().lower ? 0 : 2;
+      return grid.at(roughness == End::Center ? 1 : roughness == End::Lower ? 0 : 2).at(column);
+    };
+    return read(curve, error, cosine, sheen_roughness);
   }
 
   template <class Read>

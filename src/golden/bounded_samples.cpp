@@ -61,20 +61,27 @@ std::size_t BoundedSamples::barest(const Layer& layer, const Run& coats) const {
 // no more than what the coat's normals change over the base's ideal one and what the base's change under the barest coat.
 void BoundedSamples::add_runs(Layer& layer) {
   layer.first_run = runs_.size();
+  // At the ideal levels first, which the others take the place of one by one.
+  if (layer.first_map < layer.first_coat_map) {
+    surfaces_[layer.surface].normal = bent_[layer.first_map];
+  }
+  if (layer.first_coat_map < layer.last_map) {
+    surfaces_[layer.surface].coat_normal = bent_[layer.first_coat_map];
+  }
   std::size_t under = layer.surface;
-  const auto add = [&](std::size_t first_map, std::size_t last_map, Vec3<Bound> Surface<Bound>::*normal) {
+  const auto add = [&](std::size_t ideal_map, std::size_t last_map, Vec3<Bound> Surface<Bound>::*normal) {
     const std::size_t first = surfaces_.size();
-    for (std::size_t map = first_map; map < last_map; ++map) {
+    for (std::size_t map = ideal_map + 1; map < last_map; ++map) {
       surfaces_.push_back(surfaces_[under]);
       surfaces_.back().*normal = bent_[map];
     }
     runs_.push_back({first, surfaces_.size(), under});
   };
-  if (layer.first_coat_map < layer.last_map) {
+  if (layer.first_coat_map + 1 < layer.last_map) {
     add(layer.first_coat_map, layer.last_map, &Surface<Bound>::coat_normal);
     under = barest(layer, runs_.back());
   }
-  if (layer.first_map < layer.first_coat_map) {
+  if (layer.first_map + 1 < layer.first_coat_map) {
     add(layer.first_map, layer.first_coat_map, &Surface<Bound>::normal);
   }
   layer.last_run = runs_.size();

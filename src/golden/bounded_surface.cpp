@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "brdf/draft_sheen.h"
+#include "golden/normal_levels.h"
 #include "golden/texture_box.h"
 #include "golden/varying.h"
 #include "golden/vertex_rounding.h"
@@ -47,31 +48,6 @@ Texel unbounded_texel() {
   return {none, none, none, none};
 }
 
-/// Where a normal map turns farther than this, in radians, between two corners of its levels, they are enclosed by two surfaces instead of
-/// one: tighter where a lobe is narrow, at the price of shading once more.
-constexpr double widest_turn = 0.05;
-constexpr double most_cells = 2;
-
-/// What a map may give at levels between two corners.
-std::vector<Spread> cells(TextureBox& box, double from, double to) {
-  const auto direction = [](const Spread& s) { return glm::dvec3(s.value) * 2.0 - 1.0; };
-  Spread before = box(from);
-  const glm::dvec3 first = direction(before);
-  const glm::dvec3 last = direction(box(to));
-  const double turn = std::atan2(glm::length(glm::cross(first, last)), glm::dot(first, last));
-  const double count = std::clamp(std::ceil(turn / widest_turn), 1.0, most_cells);
-  std::vector<Spread> all;
-  for (double i = 1.0; i <= count; i += 1.0) {
-    const Spread after = box(i < count ? from + (to - from) * i / count : to);
-    Spread cell = before;
-    cell.value = 0.5 * (before.value + after.value);
-    cell.radius = 0.5 * glm::abs(after.value - before.value) + glm::max(before.radius, after.radius);
-    all.push_back(cell);
-    before = after;
-  }
-  return all;
-}
-
 glm::dmat3 rotation_into_view(const scene::Camera& camera) {
   return glm::transpose(glm::dmat3(camera.world_from_camera));
 }
@@ -102,6 +78,19 @@ class BoundedSurfaceReader::At {
     bool is_bounded() const { return std::isfinite(reach.x) && std::isfinite(reach.y); }
   };
 
+  struct Tangent {
+    bool exists = false;
+    Vector along;
+    Bound handedness;
+  };
+  /// The ideal level, and all that are allowed if that changes anything.
+  struct Levels {
+    double ideal;
+    std::vector<LodInterval> pieces;
+  };
+
+  Levels levels(const Slot& slot) const;
+  const std::array<Bound, 2>& texcoord(std::size_t set) const;
   Place place(const Slot& slot) const;
   Texel texture(const Slot& slot) const;
   Bound texture_coordinate(const Slot& slot, const std::array<Bound, 2>& uv, int row) const;
@@ -109,8 +98,8 @@ class BoundedSurfaceReader::At {
   Vector face_normal(const Vector& position) const;
   Vector transformed(const std::array<glm::dvec3, 3>& directions, const glm::dmat3& view_from_local) const;
   Vector normal(const Vector& position) const;
-  std::optional<Vector> tangent(const Vector& normal) const;
-  Vector mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& others) const;
+  Tangent tangent() const;
+  Vector mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& maps) const;
   Bound opacity(const Texel& base_color) const;
   Bound vertex_color(int channel) const;
   void read_base(Surface<Bound>& s, Bound& alpha) const;
@@ -123,6 +112,10 @@ class BoundedSurfaceReader::At {
   const SurfaceReader::Material& material_;
   std::array<std::uint32_t, 3> local_;
   Interpolation interpolate_;
+  // Once a texture needs them.
+  mutable std::optional<SurfaceReader::Neighbourhood> beside_;
+  mutable std::optional<Tangent> tangent_;
+  mutable std::array<std::optional<std::array<Bound, 2>>, 2> texcoords_;
 };
 
 // KHR_texture_transform as a matrix of floats, of which the shader takes two rows.
@@ -134,16 +127,39 @@ Bound BoundedSurfaceReader::At::texture_coordinate(const Slot& slot, const std::
   return Bound(m[0][row]) * uv[0] + Bound(m[1][row]) * uv[1] + Bound(m[2][row]);
 }
 
-BoundedSurfaceReader::At::Place BoundedSurfaceReader::At::place(const Slot& slot) const {
-  const auto& texcoords = placed_.primitive->texcoords[static_cast<std::size_t>(slot.texcoord)];
-  std::array<Bound, 2> uv{Bound(0.0), Bound(0.0)};
-  for (int axis = 0; axis < 2 && !texcoords.empty(); ++axis) {
-    uv.at(static_cast<std::size_t>(axis)) =
-        bound(interpolate_({texcoords[local_[0]][axis], texcoords[local_[1]][axis], texcoords[local_[2]][axis]}, 0.0));
+// TEXCOORD_0 or 1.
+const std::array<Bound, 2>& BoundedSurfaceReader::At::texcoord(std::size_t set) const {
+  std::optional<std::array<Bound, 2>>& uv = texcoords_.at(set);
+  if (!uv) {
+    uv.emplace(std::array<Bound, 2>{Bound(0.0), Bound(0.0)});
+    const auto& at = placed_.primitive->texcoords[set];
+    for (int axis = 0; axis < 2 && !at.empty(); ++axis) {
+      (*uv).at(static_cast<std::size_t>(axis)) = bound(interpolate_({at[local_[0]][axis], at[local_[1]][axis], at[local_[2]][axis]}, 0.0));
+    }
   }
+  return *uv;
+}
+
+BoundedSurfaceReader::At::Place BoundedSurfaceReader::At::place(const Slot& slot) const {
+  const std::array<Bound, 2>& uv = texcoord(static_cast<std::size_t>(slot.texcoord));
   const Bound u = texture_coordinate(slot, uv, 0);
   const Bound v = texture_coordinate(slot, uv, 1);
   return {{u.center(), v.center()}, {u.deviation(), v.deviation()}};
+}
+
+// The levels a driver may read a texture at.
+BoundedSurfaceReader::At::Levels BoundedSurfaceReader::At::levels(const Slot& slot) const {
+  if (!slot.texture->needs_lod()) {
+    return {-coarsest_level, {}};
+  }
+  if (!beside_) {
+    beside_ = r_.reader_.neighbourhood(hit_, ray_);
+  }
+  Levels out{r_.reader_.level(slot, hit_, *beside_), straight_pieces(*slot.texture, r_.reader_.lod_interval(slot, hit_, *beside_))};
+  if (out.pieces.size() == 1 && out.pieces.front().low == out.pieces.front().high) {
+    out.pieces.clear();  // the ideal one is read alike
+  }
+  return out;
 }
 
 // At the ideal level and at all others that are allowed.
@@ -156,9 +172,10 @@ Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
     return unbounded_texel();
   }
   TextureBox box(*slot.texture, at.uv, at.reach);
-  Spread s = box(r_.reader_.level(slot, hit_, ray_));
-  if (slot.texture->needs_lod()) {
-    for (const double level : r_.reader_.corners(slot, hit_, ray_)) {
+  const Levels l = levels(slot);
+  Spread s = box(l.ideal);
+  for (const LodInterval& piece : l.pieces) {
+    for (const double level : {piece.low, piece.high}) {
       const Spread there = box(level);
       s.radius = glm::max(s.radius, glm::abs(there.value - s.value) + there.radius);
     }
@@ -226,46 +243,46 @@ Vector BoundedSurfaceReader::At::normal(const Vector& position) const {
   return unit_or(n, [&] { return face_normal(position); });
 }
 
-// Unit. Where the shader finds none it has no use for the map.
-std::optional<Vector> BoundedSurfaceReader::At::tangent(const Vector& normal) const {
-  const auto& tangents = placed_.primitive->tangents;
-  const std::array<glm::dvec3, 3> along{glm::dvec3(tangents[local_[0]]), glm::dvec3(tangents[local_[1]]), glm::dvec3(tangents[local_[2]])};
+// Where the shader finds no tangent it has no use for a map.
+BoundedSurfaceReader::At::Tangent BoundedSurfaceReader::At::tangent() const {
+  const auto& t = placed_.primitive->tangents;
+  const std::array<glm::dvec3, 3> along{glm::dvec3(t[local_[0]]), glm::dvec3(t[local_[1]]), glm::dvec3(t[local_[2]])};
   const glm::dmat3 m = r_.view_from_world_ * placed_.linear;
-  const bool has_one = m * along[0] != glm::dvec3(0.0) || m * along[1] != glm::dvec3(0.0) || m * along[2] != glm::dvec3(0.0);
-  return has_one ? std::optional(unit_or(transformed(along, m), [&] { return normal; })) : std::nullopt;
+  if (m * along[0] == glm::dvec3(0.0) && m * along[1] == glm::dvec3(0.0) && m * along[2] == glm::dvec3(0.0)) {
+    return {};
+  }
+  return {true, transformed(along, m), bound(interpolate_({t[local_[0]].w, t[local_[1]].w, t[local_[2]].w}, 0.0))};
 }
 
-// At the map's ideal level; and, in `others`, at all that are allowed: in cells of levels, over each of which what the map gives runs
-// straight from end to end.
-Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& others) const {
+// On the side that is seen; see BoundedSurface for `maps`.
+Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& maps) const {
   const bool of_coat = map == SurfaceReader::clearcoat_normal_slot;
   const Slot& slot = of_coat ? material_.clearcoat_normal : material_.normal;
   const Vector facing = hit_.front ? normal : Vector{-normal.x, -normal.y, -normal.z};
   if (!slot.texture || placed_.primitive->tangents.empty()) {
     return facing;
   }
-  const std::optional<Vector> along = tangent(normal);
-  if (!along) {
+  if (!tangent_) {
+    tangent_ = tangent();
+  }
+  if (!tangent_->exists) {
     return facing;
   }
-  const auto& tangents = placed_.primitive->tangents;
-  const Bound w = bound(interpolate_({tangents[local_[0]].w, tangents[local_[1]].w, tangents[local_[2]].w}, 0.0));
   const Place at = place(slot);
   TextureBox box(*slot.texture, at.uv, at.reach);
   const Bound scale(of_coat ? material_.source->clearcoat.normal_scale : material_.source->normal_scale);
-  const auto mapped = [&, across = cross(normal, *along) * w](const Spread& spread) {
+  const auto mapped = [&](const Spread& spread) {
     const Texel read = at.is_bounded() ? texel(spread) : unbounded_texel();
-    return MappedNormal<Bound>{*along, across, normal, {read.r, read.g, read.b}, scale, Bound(hit_.front ? 1.0 : -1.0)};
+    const Vector code{read.r, read.g, read.b};
+    return MappedNormal<Bound>{tangent_->along, normal, tangent_->handedness, code, scale, Bound(hit_.front ? 1.0 : -1.0)};
   };
-  if (slot.texture->needs_lod()) {
-    const std::vector<double> corners = r_.reader_.corners(slot, hit_, ray_);
-    for (std::size_t i = 1; i < corners.size(); ++i) {
-      for (const Spread& cell : cells(box, corners[i - 1], corners[i])) {
-        others.push_back(mapped(cell));
-      }
-    }
+  const Levels l = levels(slot);
+  const NormalLevels all = normal_levels(box, l.ideal, l.pieces, scale.center());
+  maps.push_back(mapped(all.ideal));
+  for (const Spread& other : all.others) {
+    maps.push_back(mapped(other));
   }
-  return bent(mapped(box(r_.reader_.level(slot, hit_, ray_))));
+  return facing;
 }
 
 Bound BoundedSurfaceReader::At::vertex_color(int channel) const {

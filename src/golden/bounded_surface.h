@@ -16,7 +16,8 @@ struct BoundedSurface {
   Surface<Bound> surface;  ///< position and directions in view space, where a shader's roundings happen
   Bound opacity{1};
   bool edge_on = false;  ///< see Interpolation
-  /// Of its normal maps at all levels of detail that OpenGL ES allows, each over some of them.
+  /// What its normal maps make of the two normals, which bent() finds: first at the ideal level of detail; then, unless that one holds all
+  /// that OpenGL ES allows, others that do, each over some levels. None where there is no map: then the surface has its normal.
   std::vector<MappedNormal<Bound>> normals, coat_normals;
 };
 

@@ -8,10 +8,12 @@ namespace sheen::golden {
 /// A normal map under one point, as a shader has read it; numbers only, as Surface is.
 template <class Real>
 struct MappedNormal {
-  Vec3<Real> tangent, bitangent, normal;  ///< unit but for roundings
-  Vec3<Real> code;                        ///< of the texture, [0, 1]
-  Real scale;                             ///< normalTextureInfo.scale
-  Real side;                              ///< -1 on a back face, else 1
+  Vec3<Real> tangent;  ///< as interpolated, of any length
+  Vec3<Real> normal;   ///< unit but for roundings
+  Real handedness;     ///< TANGENT.w
+  Vec3<Real> code;     ///< of the texture, [0, 1]
+  Real scale;          ///< normalTextureInfo.scale
+  Real side;           ///< -1 on a back face, else 1
 };
 
 /// Of floats: what is shorter has no direction.
@@ -37,8 +39,11 @@ template <class Real>
 Vec3<Real> bent(const MappedNormal<Real>& m) {
   const auto coded = [](const Real& x) { return x * Real(2) - Real(1); };
   const auto up = [] { return Vec3<Real>{Real(0.0), Real(0.0), Real(1)}; };
+  const auto normal = [&m] { return m.normal; };
+  const Vec3<Real> tangent = unit_or(m.tangent, normal);
+  const Vec3<Real> bitangent = cross(m.normal, tangent) * m.handedness;
   const Vec3<Real> n = unit_or(Vec3<Real>{coded(m.code.x) * m.scale, coded(m.code.y) * m.scale, coded(m.code.z)}, up);
-  return unit_or(m.tangent * n.x + m.bitangent * n.y + m.normal * n.z, [&m] { return m.normal; }) * m.side;
+  return unit_or(tangent * n.x + bitangent * n.y + m.normal * n.z, normal) * m.side;
 }
 
 }  // namespace sheen::golden

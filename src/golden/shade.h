@@ -128,6 +128,16 @@ brdf::PhysicalBase<Real> physical_base(const brdf::Base<Real>& base, const Real&
   return {base, AlbedoReader<Real>::ggx(ggx, n_dot_v, base.alpha), AlbedoReader<Real>::ggx_average(ggx, base.alpha)};
 }
 
+/// x times one of TermFactors: x itself where that is 1, of which a shader knows nothing.
+template <class Real>
+Real times(const Real& x, double factor) {
+  return factor == 1.0 ? x : x * Real(factor);
+}
+template <class Real>
+brdf::Rgb<Real> times(const brdf::Rgb<Real>& c, double factor) {
+  return factor == 1.0 ? c : c * Real(factor);
+}
+
 template <class Mask, class Real>
 brdf::Rgb<Real> keep_where(const Mask& mask, const brdf::Rgb<Real>& c) {
   using brdf::select;
@@ -167,14 +177,14 @@ class SheenLayer {
   }
 
   Real scale(const Real& e_l) const {
-    return brdf::albedo_scale(lighting_.sheen.scaling, brdf::max3(color_), e_v_, e_l) * Real(lighting_.factors.scale);
+    return times(brdf::albedo_scale(lighting_.sheen.scaling, brdf::max3(color_), e_v_, e_l), lighting_.factors.scale);
   }
 
   /// The scale of a shader that reads E once, at the smaller of the two cosines.
   Real single_lookup_scale(const Real& n_dot_l, const Real& e_l) const {
     using brdf::select;
     const Real e = select(n_dot_l < n_dot_v_, e_l, e_v_);
-    return brdf::albedo_scale(lighting_.sheen.scaling, brdf::max3(color_), e, e) * Real(lighting_.factors.scale);
+    return times(brdf::albedo_scale(lighting_.sheen.scaling, brdf::max3(color_), e, e), lighting_.factors.scale);
   }
 
  private:
@@ -212,7 +222,7 @@ class Shading {
     }
   }
 
-  Color emission() const { return surface_.emission * (below_ * Real(lighting_.factors.emission)); }
+  Color emission() const { return below_coat(times(surface_.emission, lighting_.factors.emission)); }
   ViewPart<Real> view() const { return {lobe_.n_dot_v, sheen_ ? sheen_->e_v() : Real(0), k_, emission()}; }
   Real mirrored() const {
     using brdf::max;
@@ -250,15 +260,15 @@ class Shading {
     const Real n_dot_l = min(max(part.n_dot_l, Real(0)), Real(1));
     const HalfAngles<Lobe> half(lobe_, light.direction);
     part.n_dot_h = As<Real>::number(half.n_dot_h);
-    const Color base = base_brdf(n_dot_l, half) * Real(factors.base);
-    const Color irradiance = light.irradiance * below_;
+    const Color base = times(base_brdf(n_dot_l, half), factors.base);
+    const Color irradiance = below_coat(light.irradiance);
     if (sheen_) {
       const bool needs_e_l = sheen_->two_directions() || wants_e_l;
       const auto read = [&] { return sheen_->e_l(lit, n_dot_l); };
       const Real e_l = needs_e_l ? AlbedoReader<Real>::for_light(sheen_->e_v(), n_dot_l, lobe_.n_dot_v, read) : Real(0);
       part.e_l = select(lit, e_l, Real(0));
-      const Lobe d = sheen_->lobe().distribution(half.n_dot_h, half.sin2_theta_h) * Lobe(factors.distribution);
-      const Lobe v = sheen_->lobe().visibility_times_n_dot_l(As<Lobe>::number(n_dot_l)) * Lobe(factors.visibility);
+      const Lobe d = times(sheen_->lobe().distribution(half.n_dot_h, half.sin2_theta_h), factors.distribution);
+      const Lobe v = times(sheen_->lobe().visibility_times_n_dot_l(As<Lobe>::number(n_dot_l)), factors.visibility);
       part.d = As<Real>::number(d);
       part.v = As<Real>::number(v);
       part.scale = sheen_->scale(e_l);
@@ -287,13 +297,16 @@ class Shading {
     const HalfAngles<Lobe> half(coat_, light.direction);
     const Lobe lobe = brdf::clearcoat_lobe(As<Lobe>::number(surface_.coat_alpha), As<Lobe>::number(n_dot_l),
                                            As<Lobe>::number(coat_.n_dot_v), half.n_dot_h, half.sin2_theta_h);
-    part.coat_lobe = As<Real>::number(lobe) * Real(lighting_.factors.coat_lobe);
+    part.coat_lobe = times(As<Real>::number(lobe), lighting_.factors.coat_lobe);
     part.coat = keep_where(lit, light.irradiance * (k_ * part.coat_lobe * n_dot_l));
   }
 
+  /// What comes through the coat.
+  Color below_coat(const Color& c) const { return layers_.clearcoat ? c * below_ : c; }
+
   Real coat_weight() const {
     const Lobe k = brdf::clearcoat_weight(As<Lobe>::number(surface_.clearcoat), As<Lobe>::number(coat_.n_dot_v));
-    return As<Real>::number(k) * Real(lighting_.factors.coat_weight);
+    return times(As<Real>::number(k), lighting_.factors.coat_weight);
   }
 
   const Surface<Real>& surface_;

@@ -12,7 +12,9 @@ namespace sheen::golden {
 namespace {
 
 constexpr double largest_angle = 0.01;  // between the normals of two neighbours
-constexpr int most_halvings = 10;       // of what lies between two corners: half a turn needs 9, if the map keeps its length
+constexpr double epsilon = 0x1p-23;
+constexpr std::size_t here = 4, right = 5, below = 7;  // of the 3 x 3 pixels
+constexpr int most_halvings = 10;                      // of what lies between two corners: half a turn needs 9, if the map keeps its length
 
 // Both ends and multiples of `spacing`.
 std::vector<double> spaced(const LodInterval& range, double spacing) {
@@ -43,31 +45,79 @@ std::vector<double> levels_within(const LodInterval& range) {
   return spaced(range, 0.25);
 }
 
-// The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes. Wider by what a shader that takes
-// log2 of the coordinates' differences is off: two roundings of the coordinates, three more of the length and 4 ulp or 2^-21 of the
-// logarithm; and by what the snapping of vertices stretches a triangle by, whose weights change the faster the smaller it is.
-LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const Ray& ray) const {
-  constexpr double epsilon = 0x1p-23;
-  const glm::dvec2 size = slot.texture->size();
-  const double last = std::log2(std::max(size.x, size.y)) + 1.0;
-  glm::dvec2 texels[9];
-  bool beyond = false;
-  double stretch = 8.0 * epsilon;
+std::vector<LodInterval> straight_pieces(const Texture& texture, const LodInterval& range) {
+  const double magnified = magnified_up_to(texture.sampler);
+  std::vector<LodInterval> pieces;
+  if (range.low <= magnified) {
+    pieces.push_back({range.low, range.low});
+  }
+  if (range.high <= magnified) {
+    return pieces;
+  }
+  const double low = std::max(range.low, std::nextafter(magnified, 1.0));
+  if (texture.sampler.mip == scene::MipFilter::Nearest) {
+    for (double level = nearest_level(texture, low); level <= nearest_level(texture, range.high); level += 1.0) {
+      pieces.push_back({std::max(low, level), std::max(low, level)});
+    }
+    return pieces;
+  }
+  const bool mixes = texture.sampler.mip == scene::MipFilter::Linear;
+  const double high = mixes ? std::min(range.high, static_cast<double>(texture.levels->size() - 1)) : low;
+  double from = low;
+  do {
+    const double to = std::max(low, std::min(std::floor(from) + 1.0, high));
+    pieces.push_back({from, to});
+    from = to;
+  } while (from < high);
+  return pieces;
+}
+
+// The stretch is what the snapping of vertices stretches a triangle by, whose weights change the faster the smaller it is.
+SurfaceReader::Neighbourhood SurfaceReader::neighbourhood(const Hit& hit, const Ray& ray) const {
+  Neighbourhood out;
+  out.stretch = 8.0 * epsilon;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      const glm::dvec3 weights = weights_beside(hit, ray, column - 1, row - 1, beyond);
-      const glm::dvec3 change = glm::abs(weights - hit.weights);
-      stretch = std::max(stretch, 2.0 * step_ * (change.x + change.y + change.z));
-      texels[3 * row + column] = texcoord(slot, hit, weights) * size;
+      const auto i = static_cast<std::size_t>(3 * row + column);
+      bool beyond = false;
+      out.weights.at(i) = i == here ? hit.weights : weights_beside(hit, ray, column - 1, row - 1, beyond);
+      out.beyond = out.beyond || beyond;
+      out.ideal_beyond = out.ideal_beyond || (beyond && (i == right || i == below));
+      const glm::dvec3 change = glm::abs(out.weights.at(i) - hit.weights);
+      out.stretch = std::max(out.stretch, 2.0 * step_ * (change.x + change.y + change.z));
     }
   }
-  if (beyond || !(stretch < 1.0)) {
+  return out;
+}
+
+double SurfaceReader::level(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const {
+  if (!slot.texture->needs_lod()) {
+    return -coarsest_level;
+  }
+  if (beside.ideal_beyond) {
+    return coarsest_level;
+  }
+  const auto texels = [&](std::size_t i) { return texcoord(slot, hit, beside.weights.at(i)) * slot.texture->size(); };
+  return ideal_lod(texels(here), texels(right), texels(below));
+}
+
+// The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes. Wider by what a shader that takes
+// log2 of the coordinates' differences is off: two roundings of the coordinates, three more of the length and 4 ulp or 2^-21 of the
+// logarithm; and by the stretch.
+LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const {
+  const glm::dvec2 size = slot.texture->size();
+  const double last = std::log2(std::max(size.x, size.y)) + 1.0;
+  if (beside.beyond || !(beside.stretch < 1.0)) {
     return {-1.0, last};
+  }
+  glm::dvec2 texels[9];
+  for (std::size_t i = 0; i < 9; ++i) {
+    texels[i] = texcoord(slot, hit, beside.weights.at(i)) * size;
   }
   const LodRange range = lod_range(texels);
   const glm::dvec2 off = 2.0 * coordinate_rounding(slot, hit) * size;
   const auto widened = [&](double lod, double side) {
-    const double spanned = std::exp2(lod) * (1.0 + side * stretch) + side * (off.x + off.y);
+    const double spanned = std::exp2(lod) * (1.0 + side * beside.stretch) + side * (off.x + off.y);
     const double level = spanned > 0.0 ? std::log2(spanned) : -1.0;
     return level + side * std::max(4.0 * epsilon * std::abs(level), 0x1p-21);
   };
@@ -77,7 +127,7 @@ LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const 
 
 std::optional<LodInterval> SurfaceReader::lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const {
   const Slot& s = slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], slot);
-  return s.texture && s.texture->needs_lod() ? std::optional(lod_interval(s, hit, ray)) : std::nullopt;
+  return s.texture && s.texture->needs_lod() ? std::optional(lod_interval(s, hit, neighbourhood(hit, ray))) : std::nullopt;
 }
 
 std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const {

@@ -199,22 +199,17 @@ const SurfaceReader::Slot& SurfaceReader::slot_of(const Material& m, std::size_t
 }
 
 double SurfaceReader::level(const Slot& slot, const Hit& hit, const Footprint& footprint) const {
-  constexpr double coarsest = 1000.0;  // OpenGL ES 3.0.6, table 6.10: TEXTURE_MAX_LOD
   if (footprint.count == 0 || !slot.texture->needs_lod()) {
-    return -coarsest;
+    return -coarsest_level;
   }
   if (footprint.varied == &slot) {
     return footprint.level;
   }
   if (footprint.ideal_beyond) {
-    return coarsest;
+    return coarsest_level;
   }
   const auto texels = [&](std::size_t i) { return texcoord(slot, hit, footprint.ideal[i]) * slot.texture->size(); };
   return ideal_lod(texels(0), texels(1), texels(2));
-}
-
-double SurfaceReader::level(const Slot& slot, const Hit& hit, const Ray& ray) const {
-  return level(slot, hit, footprint(hit, ray, {}));
 }
 
 glm::dvec4 SurfaceReader::read(const Slot& slot, const Hit& hit, const Footprint& footprint) const {

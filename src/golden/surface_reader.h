@@ -31,11 +31,17 @@ struct LodInterval {
   double low, high;
 };
 
-/// Between which what a texture gives runs straight: both ends of a range, every whole level in it, and where magnification ends. One, if
-/// the range is no more.
+/// OpenGL ES 3.0.6, table 6.10: TEXTURE_MAX_LOD; and, negated, TEXTURE_MIN_LOD.
+inline constexpr double coarsest_level = 1000.0;
+
+/// The levels of a range, in pieces over which what a texture gives runs straight from end to end, which may jump from one to the next; of
+/// levels that give the same, one.
+std::vector<LodInterval> straight_pieces(const Texture& texture, const LodInterval& range);
+
+/// Both ends of a range, every whole level in it, and where magnification ends. One, if the range is no more.
 std::vector<double> corners_within(const LodInterval& range);
 
-/// These and three more between each two whole levels, since shading does not run straight.
+/// corners_within() and three more between each two whole levels, since shading does not run straight.
 std::vector<double> levels_within(const LodInterval& range);
 
 /// Reads materials: everything between a hit and its shading.
@@ -74,10 +80,18 @@ class SurfaceReader {
   /// From the least level allowed for one texture of the surface at a hit to the most; none where it has no mipmaps or is not there.
   std::optional<LodInterval> lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const;
 
-  /// corners_within() for a texture with mipmaps, or whose two filters differ.
-  std::vector<double> corners(const Slot& slot, const Hit& hit, const Ray& ray) const {
-    return corners_within(lod_interval(slot, hit, ray));
-  }
+  /// What the pixels beside one make of a triangle.
+  struct Neighbourhood {
+    std::array<glm::dvec3, 9> weights;  ///< at the 3 x 3 pixel centres, row by row, on the triangle's plane
+    bool beyond = false;                ///< whether a ray never meets the plane, and that goes for `ideal_beyond` too
+    bool ideal_beyond = false;          ///< whether it is one of the three that the ideal level is of
+    double stretch = 0;                 ///< of differences between neighbours, by a driver's roundings and snapping; a share
+  };
+  Neighbourhood neighbourhood(const Hit& hit, const Ray& ray) const;
+
+  /// The same for a texture that needs one, of what neighbourhood() says of the hit.
+  LodInterval lod_interval(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const;
+  double level(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const;
 
   /// levels_within() for one texture at a hit; of a normal map corners_within() and as many more as leave no more than a hundredth of a
   /// radian between the normals of two neighbours: a lobe may rise and fall again while a normal swings past it. Empty where no other level
@@ -85,9 +99,6 @@ class SurfaceReader {
   std::vector<double> levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const;
 
   TextureReach texture_reach(const Hit& hit, const Ray& ray) const;
-
-  /// The specification's ideal level of detail of a texture at a hit: where it has mipmaps or the two filters differ, else any.
-  double level(const Slot& slot, const Hit& hit, const Ray& ray) const;
 
   /// What shading needs at a hit of a ray; weights outside [0, 1] extrapolate.
   Surface<double> surface(const Hit& hit, const Ray& ray, LodChoice lod = {}) const;
@@ -102,7 +113,6 @@ class SurfaceReader {
   glm::dvec2 texcoord(const Slot& slot, const Hit& hit, const glm::dvec3& weights) const;
   glm::dvec2 coordinate_rounding(const Slot& slot, const Hit& hit) const;
   glm::dvec2 moved_by_step(const Slot& slot, const Hit& hit, const Ray& ray) const;
-  LodInterval lod_interval(const Slot& slot, const Hit& hit, const Ray& ray) const;
   glm::dvec3 weights_beside(const Hit& hit, const Ray& ray, double dx, double dy, bool& beyond) const;
   double level(const Slot& slot, const Hit& hit, const Footprint& footprint) const;
   glm::dvec4 read(const Slot& slot, const Hit& hit, const Footprint& footprint) const;

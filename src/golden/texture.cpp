@@ -29,27 +29,6 @@ int wrapped(double i, int size, scene::Wrap wrap) {
   return static_cast<int>(j < n ? j : 2.0 * n - 1.0 - j);
 }
 
-glm::dvec4 texel(const scene::Texels& level, const scene::Sampler& sampler, double i, double j) {
-  const int x = wrapped(i, level.width, sampler.wrap_s);
-  const int y = wrapped(j, level.height, sampler.wrap_t);
-  return glm::dvec4(level.rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x)]);
-}
-
-glm::dvec4 sample_level(const scene::Texels& level, const scene::Sampler& sampler, scene::Filter filter, glm::dvec2 uv) {
-  const double u = uv.x * level.width;
-  const double v = uv.y * level.height;
-  if (filter == scene::Filter::Nearest) {
-    return texel(level, sampler, std::floor(u), std::floor(v));
-  }
-  const double i = std::floor(u - 0.5);
-  const double j = std::floor(v - 0.5);
-  const double a = u - 0.5 - i;
-  const double b = v - 0.5 - j;
-  const glm::dvec4 top = texel(level, sampler, i, j) * (1.0 - a) + texel(level, sampler, i + 1.0, j) * a;
-  const glm::dvec4 bottom = texel(level, sampler, i, j + 1.0) * (1.0 - a) + texel(level, sampler, i + 1.0, j + 1.0) * a;
-  return top * (1.0 - b) + bottom * b;
-}
-
 double log2_texels(double texels) {
   return texels > 0.0 ? std::log2(texels) : -std::numeric_limits<double>::infinity();
 }
@@ -69,13 +48,19 @@ void extremes(const glm::dvec2 (&texels)[9], int along, int across, glm::dvec2& 
   }
 }
 
+}  // namespace
+
 // Section 3.8.10.3: where a smooth magnification meets an unfiltered mipmapped minification, the switch lies half a level higher.
 double magnified_up_to(const scene::Sampler& s) {
   using scene::Filter;
   return s.mag == Filter::Linear && s.min == Filter::Nearest && s.mip != scene::MipFilter::None ? 0.5 : 0.0;
 }
 
-}  // namespace
+// Equation 3.24: halves round down.
+double nearest_level(const Texture& texture, double lambda) {
+  const auto last = static_cast<double>(texture.levels->size() - 1);
+  return std::clamp(std::ceil(std::min(lambda, last) + 0.5) - 1.0, 0.0, last);
+}
 
 const TextureLevels::Extent& TextureLevels::extent(std::size_t level) const {
   Lazy& lazy = extents_[level];
@@ -126,38 +111,57 @@ std::optional<Mixture> mixture(const Texture& texture, double lambda) {
   return mixes ? std::optional(Mixture{first, lambda - first}) : std::nullopt;
 }
 
-glm::dvec4 sample_minified(const Texture& texture, glm::dvec2 uv, double level) {
-  if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-    uv = glm::dvec2(0.0);
+glm::dvec4 LevelReader::texel(double i, double j) const {
+  const int x = wrapped(i, level_.width, sampler_.wrap_s);
+  const int y = wrapped(j, level_.height, sampler_.wrap_t);
+  return glm::dvec4(level_.rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(level_.width) + static_cast<std::size_t>(x)]);
+}
+
+glm::dvec4 LevelReader::operator()(glm::dvec2 uv) {
+  const bool finite = std::isfinite(uv.x) && std::isfinite(uv.y);
+  const double u = finite ? uv.x * level_.width : 0.0;
+  const double v = finite ? uv.y * level_.height : 0.0;
+  const bool linear = filter_ == scene::Filter::Linear;
+  const double i = std::floor(linear ? u - 0.5 : u);
+  const double j = std::floor(linear ? v - 0.5 : v);
+  if (!(i == i_ && j == j_)) {
+    i_ = i;
+    j_ = j;
+    texels_[0] = texel(i, j);
+    if (linear) {
+      texels_ = {texels_[0], texel(i + 1.0, j), texel(i, j + 1.0), texel(i + 1.0, j + 1.0)};
+    }
   }
-  return sample_level((*texture.levels)[static_cast<std::size_t>(level)], texture.sampler, texture.sampler.min, uv);
+  if (!linear) {
+    return texels_[0];
+  }
+  const double a = u - 0.5 - i;
+  const double b = v - 0.5 - j;
+  const glm::dvec4 top = texels_[0] * (1.0 - a) + texels_[1] * a;
+  const glm::dvec4 bottom = texels_[2] * (1.0 - a) + texels_[3] * a;
+  return top * (1.0 - b) + bottom * b;
+}
+
+LevelReader minified(const Texture& texture, double level) {
+  return {(*texture.levels)[static_cast<std::size_t>(level)], texture.sampler, texture.sampler.min};
+}
+
+LevelReader unmixed(const Texture& texture, double lambda) {
+  const scene::Sampler& s = texture.sampler;
+  if (!(lambda > magnified_up_to(s))) {
+    return {texture.levels->front(), s, s.mag};
+  }
+  const auto last = static_cast<double>(texture.levels->size() - 1);
+  return minified(texture, s.mip == scene::MipFilter::None      ? 0.0
+                           : s.mip == scene::MipFilter::Nearest ? nearest_level(texture, lambda)
+                                                                : last);
 }
 
 glm::dvec4 sample(const Texture& texture, glm::dvec2 uv, double lambda) {
-  using scene::MipFilter;
-  const scene::Sampler& s = texture.sampler;
-  const TextureLevels& levels = *texture.levels;
-  if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-    uv = glm::dvec2(0.0);
+  if (const std::optional<Mixture> mixed = mixture(texture, lambda)) {
+    return minified(texture, mixed->first)(uv) * (1.0 - mixed->share) + minified(texture, mixed->first + 1.0)(uv) * mixed->share;
   }
-  if (!(lambda > magnified_up_to(s))) {
-    return sample_level(levels.front(), s, s.mag, uv);
-  }
-  if (s.mip == MipFilter::None) {
-    return sample_level(levels.front(), s, s.min, uv);
-  }
-  const auto last = static_cast<double>(levels.size() - 1);
-  const auto level = [&](double i) -> const scene::Texels& { return levels[static_cast<std::size_t>(std::clamp(i, 0.0, last))]; };
-  // Equation 3.24: the nearest level, halves rounding down.
-  if (s.mip == MipFilter::Nearest) {
-    return sample_level(level(std::ceil(std::min(lambda, last) + 0.5) - 1.0), s, s.min, uv);
-  }
-  const std::optional<Mixture> mixed = mixture(texture, lambda);
-  if (!mixed) {
-    return sample_level(level(last), s, s.min, uv);
-  }
-  return sample_minified(texture, uv, mixed->first) * (1.0 - mixed->share) +
-         sample_minified(texture, uv, mixed->first + 1.0) * mixed->share;
+  return unmixed(texture, lambda)(uv);
 }
 
 double ideal_lod(glm::dvec2 here, glm::dvec2 right, glm::dvec2 below) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -76,8 +78,37 @@ struct Mixture {
 };
 std::optional<Mixture> mixture(const Texture& texture, double lambda);
 
-/// One level by the minification filter.
-glm::dvec4 sample_minified(const Texture& texture, glm::dvec2 uv, double level);
+/// The largest level of detail at which a texture is magnified, read at level 0 with the magnification filter.
+double magnified_up_to(const scene::Sampler& sampler);
+
+/// Of a texture that is minified without filtering between mipmaps: the level that is read.
+double nearest_level(const Texture& texture, double lambda);
+
+/// One level, by one filter, at one place after another: texels of neighbouring places are fetched once.
+class LevelReader {
+ public:
+  /// The references must outlive this.
+  LevelReader(const scene::Texels& level, const scene::Sampler& sampler, scene::Filter filter)
+      : level_(level), sampler_(sampler), filter_(filter) {}
+
+  /// @param uv  texture coordinates, v = 0 at the picture's top row; as (0, 0), where they are not finite
+  glm::dvec4 operator()(glm::dvec2 uv);
+
+ private:
+  glm::dvec4 texel(double i, double j) const;
+
+  const scene::Texels& level_;
+  const scene::Sampler& sampler_;
+  scene::Filter filter_;
+  double i_ = std::numeric_limits<double>::quiet_NaN(), j_ = 0;  // of the texels that were fetched last
+  std::array<glm::dvec4, 4> texels_{};
+};
+
+/// Reads one level by the minification filter.
+LevelReader minified(const Texture& texture, double level);
+
+/// Reads what sample() does at a level of detail without a mixture().
+LevelReader unmixed(const Texture& texture, double lambda);
 
 /// Level of detail, log2 of the texels a pixel spans: what the specification's ideal formula gives, and the least and the most that
 /// OpenGL ES 3.0.6, section 3.8.10.1, allows: any f with max(m_u, m_v) <= f <= m_u + m_v, from differences to either neighbour.

@@ -19,18 +19,6 @@ constexpr double epsilon = number::epsilon<number::Highp>;
 constexpr double filter_roundings = 29;
 /// Of a coordinate in texels: the product with the size, and the two differences that make a weight of it.
 constexpr double coordinate_roundings = 3;
-/// A box of more texels than this along an axis is no longer looked at edge by edge, of which there are two a texel: a thousand samples.
-constexpr double widest_box = 16;
-
-// Coordinates along one axis to look at: both ends, and the edges and bends between them, which lie at halves of a texel.
-void add_places(double from, double to, double texels, std::vector<double>& places) {
-  const double first = std::floor(2.0 * from * texels) + 1.0;
-  const double last = std::ceil(2.0 * to * texels) - 1.0;
-  for (double half = first; half <= last; half += 1.0) {
-    places.push_back(0.5 * half / texels);
-  }
-}
-
 }  // namespace
 
 TextureBox::TextureBox(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach)
@@ -54,26 +42,31 @@ Spread TextureBox::over_levels(double lambda) const {
   return out;
 }
 
-// For a level and the next coarser one.
-std::vector<glm::dvec2> TextureBox::places(double first_level) const {
+// Both ends along one axis, and the edges and bends between them, which lie at halves of a texel.
+void TextureBox::Places::add_between(double from, double to, double texels) {
+  const double last = std::ceil(2.0 * to * texels) - 1.0;
+  for (double half = std::floor(2.0 * from * texels) + 1.0; half <= last; half += 1.0) {
+    at.at(count++) = 0.5 * half / texels;
+  }
+}
+
+// For a level and the next coarser one, uv first.
+template <class Look>
+void TextureBox::at_places(double first_level, const Look& look) const {
   const auto last = static_cast<double>(texture_.levels->size() - 1);
-  std::vector<double> x{uv_.x - off_.x, uv_.x + off_.x};
-  std::vector<double> y{uv_.y - off_.y, uv_.y + off_.y};
-  for (const double level : {first_level, std::min(first_level + 1.0, last)}) {
+  Places x{{uv_.x - off_.x, uv_.x + off_.x}, 2};
+  Places y{{uv_.y - off_.y, uv_.y + off_.y}, 2};
+  for (double level = first_level; level <= std::min(first_level + 1.0, last); level += 1.0) {
     const scene::Texels& texels = (*texture_.levels)[static_cast<std::size_t>(level)];
-    add_places(x[0], x[1], texels.width, x);
-    add_places(y[0], y[1], texels.height, y);
-    if (last == 0.0) {
-      break;
+    x.add_between(x.at[0], x.at[1], texels.width);
+    y.add_between(y.at[0], y.at[1], texels.height);
+  }
+  look(uv_);
+  for (std::size_t row = 0; row < y.count; ++row) {
+    for (std::size_t column = 0; column < x.count; ++column) {
+      look({x.at.at(column), y.at.at(row)});
     }
   }
-  std::vector<glm::dvec2> all{uv_};
-  for (const double v : y) {
-    for (const double u : x) {
-      all.emplace_back(u, v);
-    }
-  }
-  return all;
 }
 
 const TextureBox::Pair& TextureBox::pair(double first) {
@@ -84,9 +77,9 @@ const TextureBox::Pair& TextureBox::pair(double first) {
   }
   Pair& made = pairs_.emplace_back();
   made.first = first;
-  for (const glm::dvec2& at : places(first)) {
-    made.values.push_back({sample_minified(texture_, at, first), sample_minified(texture_, at, first + 1.0)});
-  }
+  LevelReader finer = minified(texture_, first);
+  LevelReader coarser = minified(texture_, first + 1.0);
+  at_places(first, [&](const glm::dvec2& at) { made.values.push_back({finer(at), coarser(at)}); });
   return made;
 }
 
@@ -109,9 +102,8 @@ Spread TextureBox::operator()(double lambda) {
     }
   } else {
     const auto last = static_cast<double>(texture_.levels->size() - 1);
-    for (const glm::dvec2& at : places(std::clamp(std::floor(lambda), 0.0, last))) {
-      include(sample(texture_, at, lambda));
-    }
+    LevelReader read = unmixed(texture_, lambda);
+    at_places(std::clamp(std::floor(lambda), 0.0, last), [&](const glm::dvec2& at) { include(read(at)); });
   }
   out.radius += filter_roundings * epsilon * largest;
   return out;

@@ -34,8 +34,18 @@ class TextureBox {
     double first = 0;
     std::vector<std::array<glm::dvec4, 2>> values;
   };
+  /// A box of more texels than this along an axis is no longer looked at edge by edge, of which there are two a texel: a thousand samples.
+  static constexpr int widest_box = 16;
+  /// Coordinates along one axis to look at.
+  struct Places {
+    std::array<double, 4 * widest_box> at;
+    std::size_t count;
+
+    void add_between(double from, double to, double texels);
+  };
   bool is_wide(double level) const;
-  std::vector<glm::dvec2> places(double first_level) const;
+  template <class Look>
+  void at_places(double first_level, const Look& look) const;
   const Pair& pair(double first);
   Spread over_levels(double lambda) const;
 
