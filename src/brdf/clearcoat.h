@@ -14,11 +14,9 @@ Real clearcoat_weight(Real clearcoat, Real nc_dot_v) {
   return clearcoat * (Real(0.04) + Real(0.96) * schlick_weight(nc_dot_v));
 }
 
-/// The coat's lobe D Vis in 1/sr, before its weight: GGX of alpha_c = clearcoatRoughness^2 about the coat's normal
-/// (KHR_materials_clearcoat, "Clearcoat BRDF"). Arguments as for specular_ggx.
+/// The coat's lobe D Vis, before its weight: GGX of alpha_c = clearcoatRoughness^2 about the coat's normal (KHR_materials_clearcoat,
+/// "Clearcoat BRDF").
 template <class Real>
-Real clearcoat_lobe(Real alpha_c, Real nc_dot_l, Real nc_dot_v, Real nc_dot_h, Real sin2_theta_h) {
-  return specular_ggx(alpha_c, nc_dot_l, nc_dot_v, nc_dot_h, sin2_theta_h);
-}
+using ClearcoatLobe = GgxLobe<Real>;
 
 }  // namespace sheen::brdf

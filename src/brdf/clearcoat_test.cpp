@@ -18,8 +18,9 @@ TEST(Clearcoat, FresnelIsSchlickOfTheViewAngle) {
 }
 
 TEST(Clearcoat, LobeIsGgxWithSmithVisibility) {
-  EXPECT_DOUBLE_EQ(clearcoat_lobe(0.09, 0.6, 0.7, 0.9, 0.19), ggx_distribution(0.09, 0.9, 0.19) * smith_visibility(0.09, 0.6, 0.7));
-  EXPECT_EQ(clearcoat_lobe(0.0, 0.6, 0.7, 1.0, 0.0), 0) << "roughness 0, the default, gives punctual lights no highlight";
+  const double lobe = ClearcoatLobe<double>(0.09, 0.7).value(0.6, 0.9, 0.19);
+  EXPECT_DOUBLE_EQ(lobe, ggx_distribution(0.09, 0.9, 0.19) * smith_visibility(0.09, 0.6, 0.7));
+  EXPECT_EQ(ClearcoatLobe<double>(0.0, 0.7).value(0.6, 1.0, 0.0), 0) << "roughness 0, the default, gives punctual lights no highlight";
 }
 
 }  // namespace

@@ -20,22 +20,45 @@ Real ggx_distribution(Real alpha, Real n_dot_h, Real sin2_theta_h) {
   return select_of(alpha > Real(mirror_alpha), distribution, [] { return Real(0); });
 }
 
-/// Height-correlated Smith visibility G / (4 N.L N.V) of GGX, in 1/sr: Heitz 2014, equation 99; glTF 2.0 Appendix B.3.2.
-/// @param n_dot_l, n_dot_v  cosines in [0, 1], not both 0
+/// The GGX lobe at one point, with what does not depend on the light found once.
+template <class Real>
+class GgxLobe {
+ public:
+  /// @param alpha    square of roughness, [0, 1]
+  /// @param n_dot_v  [0, 1]
+  GgxLobe(Real alpha, Real n_dot_v) : alpha_(alpha), n_dot_v_(n_dot_v), a2_(alpha * alpha), rest_(Real(1) - a2_), root_v_(root(n_dot_v)) {}
+
+  /// Height-correlated Smith visibility G / (4 N.L N.V), in 1/sr: Heitz 2014, equation 99; glTF 2.0 Appendix B.3.2.
+  /// @param n_dot_l  [0, 1], not 0 where N.V is
+  Real visibility(Real n_dot_l) const {
+    const Real v = n_dot_l * root_v_;
+    const Real l = n_dot_v_ * root(n_dot_l);
+    return Real(0.5) / (v + l);
+  }
+
+  /// The specular lobe D Vis in 1/sr. A mirror has none: 0, even where both cosines vanish with alpha and Vis has no value.
+  /// @param n_dot_h, sin2_theta_h  as for ggx_distribution
+  Real value(Real n_dot_l, Real n_dot_h, Real sin2_theta_h) const {
+    const auto lobe = [&] { return Real(ggx_distribution(alpha_, n_dot_h, sin2_theta_h) * visibility(n_dot_l)); };
+    return select_of(alpha_ > Real(mirror_alpha), lobe, [] { return Real(0); });
+  }
+
+ private:
+  Real root(const Real& cosine) const { return sqrt(a2_ + rest_ * cosine * cosine); }
+
+  Real alpha_, n_dot_v_, a2_, rest_, root_v_;
+};
+
+/// GgxLobe::visibility() of all its arguments.
 template <class Real>
 Real smith_visibility(Real alpha, Real n_dot_l, Real n_dot_v) {
-  const Real a2 = alpha * alpha;
-  const Real v = n_dot_l * sqrt(a2 + (Real(1) - a2) * n_dot_v * n_dot_v);
-  const Real l = n_dot_v * sqrt(a2 + (Real(1) - a2) * n_dot_l * n_dot_l);
-  return Real(0.5) / (v + l);
+  return GgxLobe<Real>(alpha, n_dot_v).visibility(n_dot_l);
 }
 
-/// The specular lobe D Vis in 1/sr. A mirror has none: 0, even where both cosines vanish with alpha and Vis has no value. Arguments as
-/// above.
+/// GgxLobe::value(), likewise.
 template <class Real>
 Real specular_ggx(Real alpha, Real n_dot_l, Real n_dot_v, Real n_dot_h, Real sin2_theta_h) {
-  const auto lobe = [&] { return Real(ggx_distribution(alpha, n_dot_h, sin2_theta_h) * smith_visibility(alpha, n_dot_l, n_dot_v)); };
-  return select_of(alpha > Real(mirror_alpha), lobe, [] { return Real(0); });
+  return GgxLobe<Real>(alpha, n_dot_v).value(n_dot_l, n_dot_h, sin2_theta_h);
 }
 
 }  // namespace sheen::brdf

@@ -85,7 +85,7 @@ template <class Real>
 Real layers(const Arguments<Real>& a) {
   const Real k = brdf::clearcoat_weight(a.clearcoat, a.n_dot_v);
   const Real s = brdf::albedo_scale(brdf::AlbedoScaling::Full, a.sheen_color, a.e_v, a.e_l);
-  const Real coat = brdf::clearcoat_lobe(a.alpha, a.n_dot_l, a.n_dot_v, a.n_dot_h, a.sin2_theta_h) * a.n_dot_l;
+  const Real coat = brdf::ClearcoatLobe<Real>(a.alpha, a.n_dot_v).value(a.n_dot_l, a.n_dot_h, a.sin2_theta_h) * a.n_dot_l;
   return (Real(1) - k) * (a.sheen_color * sheen(Visibility::Charlie, a) + s * base(a) * a.n_dot_l) + k * coat;
 }
 

@@ -159,7 +159,7 @@ class SheenLayer {
         lighting_(lighting),
         roughness_(surface.sheen_roughness),
         n_dot_v_(lobe.n_dot_v),
-        color_(surface.sheen_color),
+        strength_(brdf::max3(surface.sheen_color)),
         e_v_(albedo_at(n_dot_v_)) {}
 
   const Real& e_v() const { return e_v_; }
@@ -177,14 +177,14 @@ class SheenLayer {
   }
 
   Real scale(const Real& e_l) const {
-    return times(brdf::albedo_scale(lighting_.sheen.scaling, brdf::max3(color_), e_v_, e_l), lighting_.factors.scale);
+    return times(brdf::albedo_scale(lighting_.sheen.scaling, strength_, e_v_, e_l), lighting_.factors.scale);
   }
 
   /// The scale of a shader that reads E once, at the smaller of the two cosines.
   Real single_lookup_scale(const Real& n_dot_l, const Real& e_l) const {
     using brdf::select;
     const Real e = select(n_dot_l < n_dot_v_, e_l, e_v_);
-    return times(brdf::albedo_scale(lighting_.sheen.scaling, brdf::max3(color_), e, e), lighting_.factors.scale);
+    return times(brdf::albedo_scale(lighting_.sheen.scaling, strength_, e, e), lighting_.factors.scale);
   }
 
  private:
@@ -193,7 +193,7 @@ class SheenLayer {
   brdf::SheenLobe<Lobe> lobe_;
   const Lighting& lighting_;
   Real roughness_, n_dot_v_;
-  brdf::Rgb<Real> color_;
+  Real strength_;  // sheenColor's largest channel
   Real e_v_;
 };
 
@@ -212,13 +212,16 @@ class Shading {
         coat_(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view),
         k_(layers.clearcoat ? coat_weight() : Real(0)),
         below_(Real(1) - k_),
-        base_(As<Lobe>::base(surface.base)),
-        n_dot_v_(As<Lobe>::number(lobe_.n_dot_v)) {
+        n_dot_v_(As<Lobe>::number(lobe_.n_dot_v)),
+        base_(As<Lobe>::base(surface.base), n_dot_v_) {
     if (layers.sheen) {
       sheen_.emplace(surface, lobe_, lighting);
     }
+    if (layers.clearcoat) {
+      coat_lobe_.emplace(As<Lobe>::number(surface.coat_alpha), As<Lobe>::number(coat_.n_dot_v));
+    }
     if (lighting.ggx != nullptr) {
-      physical_.emplace(physical_base(base_, n_dot_v_, *lighting.ggx));
+      physical_.emplace(physical_base(base_.material(), n_dot_v_, *lighting.ggx));
     }
   }
 
@@ -283,10 +286,10 @@ class Shading {
 
   Color base_brdf(const Real& n_dot_l, const HalfAngles<Lobe>& half) const {
     if (physical_) {
-      const auto albedo = AlbedoReader<Lobe>::ggx(*lighting_.ggx, As<Lobe>::number(n_dot_l), base_.alpha);
+      const auto albedo = AlbedoReader<Lobe>::ggx(*lighting_.ggx, As<Lobe>::number(n_dot_l), base_.material().alpha);
       return As<Real>::color(physical_->brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
     }
-    return As<Real>::color(brdf::base_brdf(base_, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
+    return As<Real>::color(base_.brdf(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
   }
 
   template <class Mask>
@@ -295,8 +298,7 @@ class Shading {
     using brdf::min;
     const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
     const HalfAngles<Lobe> half(coat_, light.direction);
-    const Lobe lobe = brdf::clearcoat_lobe(As<Lobe>::number(surface_.coat_alpha), As<Lobe>::number(n_dot_l),
-                                           As<Lobe>::number(coat_.n_dot_v), half.n_dot_h, half.sin2_theta_h);
+    const Lobe lobe = coat_lobe_->value(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h);
     part.coat_lobe = times(As<Real>::number(lobe), lighting_.factors.coat_lobe);
     part.coat = keep_where(lit, light.irradiance * (k_ * part.coat_lobe * n_dot_l));
   }
@@ -314,8 +316,9 @@ class Shading {
   const Lighting& lighting_;
   LobeView<Real> lobe_, coat_;
   Real k_, below_;  // the coat's weight, and what it leaves of all below it
-  brdf::Base<Lobe> base_;
   Lobe n_dot_v_;
+  brdf::BaseLayer<Lobe> base_;
+  std::optional<brdf::ClearcoatLobe<Lobe>> coat_lobe_;
   std::optional<SheenLayer<Real, Lobe>> sheen_;
   std::optional<brdf::PhysicalBase<Lobe>> physical_;
 };
