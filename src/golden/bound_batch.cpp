@@ -201,7 +201,8 @@ bool is_lost(const brdf::Rgb<Forms>& c) {
   return xsimd::any(c.r.is_lost() | c.g.is_lost() | c.b.is_lost());
 }
 
-/// shade(), light by light without ranges where that holds all lanes, else with them; summed in the shader's order.
+/// shade() of surfaces each under the same lights (not Lighting::distant): light by light without ranges where that holds all lanes, else
+/// with them.
 brdf::Rgb<Many> shade_by_forms(const Surface<Many>& surface, Layers layers, const Lighting& lighting) {
   const Surface<Forms> form = forms_of(surface);
   const Shading<Forms, Forms> quick(form, layers, lighting);
@@ -211,17 +212,14 @@ brdf::Rgb<Many> shade_by_forms(const Surface<Many>& surface, Layers layers, cons
   if (is_lost(radiance)) {
     radiance = forms_of(careful().emission());
   }
-  // What a surface has no layer for, adds zeros, which change nothing.
-  const auto sum = [&](const auto& part) {
-    brdf::Rgb<Forms> c = layers.sheen ? radiance + forms_of(part.sheen) : radiance;
-    c = c + forms_of(part.base);
-    return layers.clearcoat ? c + forms_of(part.coat) : c;
+  const auto with = [&](const auto& part) {
+    return with_light(radiance, layers, forms_of(part.sheen), forms_of(part.base), forms_of(part.coat));
   };
   brdf::Rgb<Forms> no_lookup;
   brdf::Rgb<Many> none;
   for (std::size_t i = 0; i < lighting.light_count; ++i) {
-    const brdf::Rgb<Forms> lit = sum(quick.light(arriving(lighting.lights[i], form.position), false, no_lookup));
-    radiance = is_lost(lit) ? sum(careful().light(arriving(lighting.lights[i], surface.position), false, none)) : lit;
+    const brdf::Rgb<Forms> lit = with(quick.light(arriving(lighting.lights[i], form.position), false, no_lookup));
+    radiance = is_lost(lit) ? with(careful().light(arriving(lighting.lights[i], surface.position), false, none)) : lit;
   }
   return {radiance.r.bounds(), radiance.g.bounds(), radiance.b.bounds()};
 }

@@ -45,10 +45,10 @@ std::size_t BoundedSamples::add(const Seen& seen, const Ray& ray, double step) {
   return ends_.size() - 1;
 }
 
-// Of a layer's own surface and a run of others, the one through whose coat, of weight k, most is seen of what lies below: where |Nc.V| is
-// largest.
+// Of a layer's own surface and a run of others, the one through whose coat, of weight k, most may be seen of what lies below: where |Nc.V|
+// reaches farthest.
 std::size_t BoundedSamples::barest(const Layer& layer, const Run& coats) const {
-  const auto facing = [this](std::size_t i) { return std::abs(dot(surfaces_[i].coat_normal, surfaces_[i].view).center()); };
+  const auto facing = [this](std::size_t i) { return dot(surfaces_[i].coat_normal, surfaces_[i].view).range().magnitude(); };
   std::size_t best = layer.surface;
   for (std::size_t i = coats.first; i < coats.last; ++i) {
     best = facing(i) > facing(best) ? i : best;

@@ -17,12 +17,12 @@ using scene::Filter;
 using scene::MipFilter;
 
 /// A normal map whose codes lie up to `bump` from (128, 128, 255).
-Texture normal_map(int bump, const scene::Sampler& sampler) {
+Texture normal_map(int bump, const scene::Sampler& sampler, int width = 32, int height = 16) {
   scene::Scene s;
   std::mt19937 random(4);
   std::uniform_int_distribution<int> code(-bump, bump);
   const auto texel = [&](int, int) { return glm::ivec4(128 + code(random), 128 + code(random), 255 - std::abs(code(random)), 255); };
-  test::add_texture(s, test::picture(32, 16, texel), sampler);
+  test::add_texture(s, test::picture(width, height, texel), sampler);
   return TextureStore(s).get(0, scene::ColorSpace::Linear);
 }
 
@@ -38,8 +38,8 @@ std::vector<scene::Sampler> samplers() {
   return all;
 }
 
-const std::vector<LodInterval> ranges{{-1.0, -0.5}, {-0.3, 0.2}, {-1.0, 6.0}, {0.2, 0.7}, {0.6, 0.9},
-                                      {1.2, 3.4},   {2.0, 2.0},  {0.0, 0.5},  {4.5, 6.0}, {5.5, 6.0}};
+const std::vector<LodInterval> ranges{{-1.0, -0.5}, {-0.3, 0.2}, {0.5, 1.5}, {1.5, 2.5}, {-1.0, 6.0}, {0.2, 0.7},
+                                      {0.6, 0.9},   {1.2, 3.4},  {2.0, 2.0}, {0.0, 0.5}, {4.5, 6.0},  {5.5, 6.0}};
 
 TEST(StraightPieces, HoldEveryLevelOfTheirRange) {
   for (const scene::Sampler& sampler : samplers()) {
@@ -76,31 +76,37 @@ bool holds(const Spread& box, const glm::dvec4& code) {
   return glm::all(glm::lessThanEqual(glm::abs(code - box.value), box.radius));
 }
 
-TEST(NormalLevels, HoldWhatAnyLevelGivesInFewSmallBoxes) {
+void expect_held(const Texture& texture, double scale, double reach, bool one_box) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (const scene::Sampler& sampler : samplers()) {
-    for (const int bump : {1, 60}) {
-      const Texture texture = normal_map(bump, sampler);
-      for (const LodInterval& range : ranges) {
-        for (int i = 0; i < 4; ++i) {
-          const glm::dvec2 uv(unit(random), unit(random));
-          const double reach = 1e-4;
-          TextureBox box(texture, uv, glm::dvec2(reach));
-          const double ideal = range.low + unit(random) * (range.high - range.low);
-          const NormalLevels all = normal_levels(box, ideal, straight_pieces(texture, range), 1.0);
-          EXPECT_EQ(all.ideal.value, sample(texture, uv, ideal));
-          if (bump == 1) {
-            EXPECT_TRUE(all.others.empty()) << "small enough for one box";
-          }
-          for (int k = 0; k < 200; ++k) {
-            const glm::dvec2 moved = uv + reach * (2.0 * glm::dvec2(unit(random), unit(random)) - 1.0);
-            const glm::dvec4 code = sample(texture, moved, range.low + unit(random) * (range.high - range.low));
-            const auto in = [&code](const Spread& s) { return holds(s, code); };
-            EXPECT_TRUE(all.others.empty() ? in(all.ideal) : std::any_of(all.others.begin(), all.others.end(), in));
-          }
-        }
+  for (const LodInterval& range : ranges) {
+    for (int i = 0; i < 4; ++i) {
+      const glm::dvec2 uv(3.0 * unit(random) - 1.0, 3.0 * unit(random) - 1.0);
+      TextureBox box(texture, uv, glm::dvec2(reach));
+      const double ideal = range.low + unit(random) * (range.high - range.low);
+      const NormalLevels all = normal_levels(box, ideal, straight_pieces(texture, range), scale);
+      EXPECT_EQ(all.ideal.value, sample(texture, uv, ideal));
+      EXPECT_TRUE(all.others.empty() || !one_box) << "small enough for one";
+      for (int k = 0; k < 200; ++k) {
+        const glm::dvec2 moved = uv + reach * (2.0 * glm::dvec2(unit(random), unit(random)) - 1.0);
+        const glm::dvec4 code = sample(texture, moved, range.low + unit(random) * (range.high - range.low));
+        const auto in = [&code](const Spread& s) { return holds(s, code); };
+        EXPECT_TRUE(all.others.empty() ? in(all.ideal) : std::any_of(all.others.begin(), all.others.end(), in));
       }
+    }
+  }
+}
+
+TEST(NormalLevels, HoldWhatAnyLevelGivesInFewSmallBoxes) {
+  for (scene::Sampler sampler : samplers()) {
+    expect_held(normal_map(1, sampler), 1.0, 1e-4, true);
+    expect_held(normal_map(60, sampler), 1.0, 1e-4, false);
+    expect_held(normal_map(60, sampler), 1.0, 0.4, false);
+    sampler.wrap_s = scene::Wrap::ClampToEdge;
+    for (const double scale : {-2.0, 0.0, 0.3}) {
+      expect_held(normal_map(60, sampler, 7, 5), scale, 1e-4, false);
+      expect_held(normal_map(60, sampler, 1, 1), scale, 1e-4, true);
+      expect_held(normal_map(60, sampler, 1, 6), scale, 1e-4, false);
     }
   }
 }

@@ -323,6 +323,15 @@ class Shading {
   std::optional<brdf::PhysicalBase<Lobe>> physical_;
 };
 
+/// The radiance after a light's part, in the shader's order of summation; layers that are not there add nothing.
+/// @param radiance  so far
+template <class Real>
+brdf::Rgb<Real> with_light(const brdf::Rgb<Real>& radiance, Layers layers, const brdf::Rgb<Real>& sheen, const brdf::Rgb<Real>& base,
+                           const brdf::Rgb<Real>& coat) {
+  const brdf::Rgb<Real> below = (layers.sheen ? radiance + sheen : radiance) + base;
+  return layers.clearcoat ? below + coat : below;
+}
+
 /// Radiance toward the camera, in lux / sr:
 ///   L_o = sum over lights E [ (1-k) (f_sheen + s base) max(N.L,0) + k D_c Vis_c max(Nc.L,0) ] + (1-k) emission.
 /// Every term passes `listener`, so that what is reported and what is drawn come from one evaluation.
@@ -337,7 +346,7 @@ Shaded<Real> shade_with(const Surface<Real>& surface, Layers layers, const Light
                                                              : arriving(lighting.lights[i], surface.position);
     const LightPart<Real> part = shading.light(light, wants_e_l, out.lookup);
     listener.light(i, part);
-    out.radiance = out.radiance + part.sheen + part.base + part.coat;
+    out.radiance = with_light(out.radiance, layers, part.sheen, part.base, part.coat);
   }
   return out;
 }

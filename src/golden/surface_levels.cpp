@@ -54,6 +54,7 @@ std::vector<LodInterval> straight_pieces(const Texture& texture, const LodInterv
   if (range.high <= magnified) {
     return pieces;
   }
+  // Just above a switch at a half, a sum with a half may still round to level 0.
   const double low = std::max(range.low, std::nextafter(magnified, 1.0));
   if (texture.sampler.mip == scene::MipFilter::Nearest) {
     for (double level = nearest_level(texture, low); level <= nearest_level(texture, range.high); level += 1.0) {

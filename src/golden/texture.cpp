@@ -86,8 +86,9 @@ Texture TextureStore::get(int texture, scene::ColorSpace space) {
     throw scene::Error(scene_.file, element, "its image does not exist");
   }
   const bool mips = source.sampler.mip != scene::MipFilter::None;
-  auto& [levels, has_mips] = decoded_[{source.picture, space}];
-  if (levels == nullptr || (mips && !has_mips)) {
+  // With mipmaps and without, a picture is two textures: what reads level 0 alone takes the last level for 0.
+  Levels& levels = decoded_[{source.picture, space, mips}];
+  if (levels == nullptr) {
     scene::Texels level0 = scene::decode(scene_.pictures[static_cast<std::size_t>(source.picture)], space);
     if (level0.width <= 0 || level0.height <= 0) {
       throw scene::Error(scene_.file, element, "its image is empty");
@@ -99,7 +100,6 @@ Texture TextureStore::get(int texture, scene::ColorSpace space) {
       chain.push_back(std::move(level0));
     }
     levels = std::make_shared<const TextureLevels>(std::move(chain));
-    has_mips = mips;
   }
   return {levels, source.sampler};
 }

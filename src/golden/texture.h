@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -52,7 +53,7 @@ struct Texture {
   glm::dvec2 size() const { return {levels->front().width, levels->front().height}; }
 };
 
-/// Decodes each picture once for each colour space it is read in.
+/// Decodes each picture once for each colour space it is read in, with mipmaps and without.
 class TextureStore {
  public:
   explicit TextureStore(const scene::Scene& scene) : scene_(scene) {}
@@ -62,7 +63,7 @@ class TextureStore {
  private:
   using Levels = std::shared_ptr<const TextureLevels>;
   const scene::Scene& scene_;
-  std::map<std::pair<int, scene::ColorSpace>, std::pair<Levels, bool>> decoded_;  // and whether with mipmaps
+  std::map<std::tuple<int, scene::ColorSpace, bool>, Levels> decoded_;  // the last: whether with mipmaps
 };
 
 /// The texture's value by OpenGL ES 3.0.6, section 3.8.10: filters, wrap modes, choice between magnification and minification, and mipmaps,

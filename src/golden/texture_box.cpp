@@ -19,6 +19,7 @@ constexpr double epsilon = number::epsilon<number::Highp>;
 constexpr double filter_roundings = 29;
 /// Of a coordinate in texels: the product with the size, and the two differences that make a weight of it.
 constexpr double coordinate_roundings = 3;
+
 }  // namespace
 
 TextureBox::TextureBox(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach)

@@ -36,7 +36,7 @@ class TextureBox {
   };
   /// A box of more texels than this along an axis is no longer looked at edge by edge, of which there are two a texel: a thousand samples.
   static constexpr int widest_box = 16;
-  /// Coordinates along one axis to look at.
+  /// Coordinates along one axis to look at: both ends, two a texel and one more of a level, and of the next, which is half as fine.
   struct Places {
     std::array<double, 4 * widest_box> at;
     std::size_t count;

@@ -124,6 +124,23 @@ TEST(Texture, ColourIsDecodedFromSrgbAndDataIsNot) {
   EXPECT_THROW(store.get(1, scene::ColorSpace::Linear), scene::Error);
 }
 
+TEST(Texture, WithoutMipmapsHasLevel0AloneWhoeverElseReadsThePicture) {
+  scene::Scene s;
+  s.file = "test";
+  scene::Sampler sampler;
+  for (const MipFilter mip : {MipFilter::Linear, MipFilter::None, MipFilter::Nearest}) {
+    sampler.mip = mip;
+    test::add_texture(s, test::picture(8, 4, [](int x, int y) { return glm::ivec4(20 * x, 40 * y, 0, 255); }), sampler);
+  }
+  for (scene::Texture& texture : s.textures) {
+    texture.picture = 0;
+  }
+  TextureStore store(s);
+  EXPECT_EQ(store.get(0, scene::ColorSpace::Linear).levels->size(), 4U);
+  EXPECT_EQ(store.get(1, scene::ColorSpace::Linear).levels->size(), 1U);
+  EXPECT_EQ(store.get(2, scene::ColorSpace::Linear).levels, store.get(0, scene::ColorSpace::Linear).levels) << "decoded once";
+}
+
 TEST(Texture, CoordinatesWithoutMeaningReadSomething) {
   scene::Sampler s;
   const Texture t = strip({1, 1, 1, 1}, s);

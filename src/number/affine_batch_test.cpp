@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -25,13 +26,17 @@ using Single = test::One<Highp>;
 struct Operation {
   const char* name;
   bool may_lose;  ///< of operands that are close to their centres too
+  bool rounds;    ///< once, correctly
   std::function<Form(const Form&, const Form&)> form;
   std::function<Bounds(const Bounds&, const Bounds&)> bounds;
   std::function<double(double, double)> exact;
 };
 
 std::vector<Operation> operations() {
-  const auto operation = [](const char* name, bool may_lose, auto f, auto exact) { return Operation{name, may_lose, f, f, exact}; };
+  const auto operation = [](const char* name, bool may_lose, auto f, auto exact) {
+    const std::string_view n = name;
+    return Operation{name, may_lose, n == "a + b" || n == "a - b" || n == "a b" || n == "a a", f, f, exact};
+  };
   const auto constant = [](const auto& like, double value) { return std::remove_cvref_t<decltype(like)>(value); };
   return {
       operation(
@@ -126,7 +131,7 @@ TEST(AffineBatch, EnclosesWhatBoundsDoAndHardlyMore) {
         }
         ++kept;
         ASSERT_TRUE(want.is_bounded());
-        const double room = 1e-12 * want.range().magnitude();
+        const double room = 0x1p-46 * want.range().magnitude();  // of xsimd's functions
         EXPECT_NEAR(got.center(), want.center(), room);
         EXPECT_LE(got.range().lower, want.range().lower + room);
         EXPECT_GE(got.range().upper, want.range().upper - room);
@@ -140,7 +145,9 @@ TEST(AffineBatch, EnclosesWhatBoundsDoAndHardlyMore) {
           const double u = sign(random);
           const double v = sign(random);
           const double exact = operation.exact(held(x, u, v, sign(random)), held(y, u, v, sign(random)));
-          EXPECT_LE(std::abs(exact - held(got, u, v, 0)), got.radius() * (1 + 1e-12) + room) << x.center() << ' ' << y.center();
+          const bool may_round = operation.rounds && !x.is_exact() && !y.is_exact();
+          const double off = std::abs(exact - held(got, u, v, 0)) + (may_round ? (1 - 1e-6) * ulp<Highp>(exact) : 0);
+          EXPECT_LE(off, got.radius() + room) << x.center() << ' ' << y.center();
         }
       }
     }
@@ -165,7 +172,7 @@ TEST(AffineBatch, KeepsWhatIsLost) {
   const Form moving = form_of(Single::within(2, 0.1));
   ASSERT_TRUE(is_lost(lost));
   for (const Form& other : {x, moving, Form(0.0), Form(1.0)}) {
-    EXPECT_TRUE(is_lost(lost + other) || other.center().get(0) == 0);
+    EXPECT_TRUE(is_lost(lost + other));
     EXPECT_TRUE(is_lost(other - lost));
     EXPECT_TRUE(is_lost(lost * other));
     EXPECT_TRUE(is_lost(other * lost));
@@ -179,7 +186,6 @@ TEST(AffineBatch, KeepsWhatIsLost) {
     EXPECT_TRUE(is_lost(max(nan, other)));
     EXPECT_TRUE(is_lost(min(other, nan)));
   }
-  EXPECT_TRUE(is_lost(lost + Form(0.0)));
   EXPECT_FALSE(is_lost(select(Form(1.0) < Form(2.0), x, lost))) << "a branch that is not taken";
   EXPECT_TRUE(is_lost(select(Form(2.0) < Form(1.0), x, lost)));
   EXPECT_TRUE(is_lost(select(lost < Form(2.0), x, x)));
