@@ -186,22 +186,11 @@ class AffineBatch {
   Batch spread_;  // at least |shift_x| + |shift_y| + radius; 0 only of an exact number
 };
 
-/// As of BoundedBatch: the lanes are samples.
-template <class Precision>
-struct Lanes<AffineBatch<Precision>> {
-  static constexpr std::size_t count = 1;
-  static AffineBatch<Precision> load(const double* values) { return AffineBatch<Precision>(*values); }
-};
-
 // The built-in functions are BoundedBatch's, whose results keep their form.
 
 template <class Precision>
 AffineBatch<Precision> exp(const AffineBatch<Precision>& x) {
   return AffineBatch<Precision>(exp(x.bounds()));
-}
-template <class Precision>
-AffineBatch<Precision> exp2(const AffineBatch<Precision>& x) {
-  return AffineBatch<Precision>(exp2(x.bounds()));
 }
 template <class Precision>
 AffineBatch<Precision> log(const AffineBatch<Precision>& x) {
