@@ -30,7 +30,8 @@ struct BoundJob {
   const std::uint32_t* order;  ///< of `count` indices into surfaces and results
   std::size_t count;
   Layers layers;
-  Precision lobes;  ///< of the lobes' and Fresnel terms' arithmetic
+  Precision lobes;            ///< of the lobes' and Fresnel terms' arithmetic
+  bool ranges_alone = false;  ///< how far the results reach will do, whatever moves them; see number::RangeBatch
 };
 
 /// Shades them into results at the same indices, four at a time where the processor can.

@@ -1,5 +1,6 @@
 #include "golden/bounded_samples.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -97,8 +98,13 @@ void BoundedSamples::shade() {
   radiance_.resize(surfaces_.size());
   const Frame& frame = bound_.frame();
   by_material(materials_, [&](const std::uint32_t* order, std::size_t count, int material) {
-    const BoundJob job{surfaces_.data(), order, count, frame.reader.layers(material), frame.settings.precision};
-    bound_all(job, bound_.lighting(material), radiance_.data());
+    // Those that others may be seen instead of come first; of these others it counts how far their radiance reaches, all in all.
+    const std::uint32_t* others = std::lower_bound(order, order + count, layers_.size());
+    const auto own = static_cast<std::size_t>(others - order);
+    const Lighting lighting = bound_.lighting(material);
+    const Layers layers = frame.reader.layers(material);
+    bound_all({surfaces_.data(), order, own, layers, frame.settings.precision, false}, lighting, radiance_.data());
+    bound_all({surfaces_.data(), others, count - own, layers, frame.settings.precision, true}, lighting, radiance_.data());
   });
 }
 

@@ -180,9 +180,13 @@ Tile::Plan Tile::plan(int x, int y) {
 
 void Tile::shade_surfaces() {
   shaded_.resize(surfaces_.size());
+  direct_.resize(bounded_ ? surfaces_.size() : 0);
   const Lighting lighting = frame_.lighting();
   by_material(materials_, [&](const std::uint32_t* order, std::size_t count, int material) {
     shade_all(surfaces_.data(), order, count, frame_.reader.layers(material), lighting, shaded_.data());
+    for (std::size_t i = 0; bounded_ && i < count; ++i) {
+      direct_[order[i]] = shaded_[order[i]].radiance;
+    }
     if (frame_.settings.environment != nullptr && !frame_.environment) {
       add_uniform_light(order, count, lighting);
     }
@@ -215,6 +219,9 @@ Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
       out.standard_error = dvec3(standard_error_[surface]) * a + out.standard_error * (1.0 - a);
     }
     out.radiance = (dvec3(s.radiance) + from_image) * a + out.radiance * (1.0 - a);
+    if (bounded_) {
+      out.direct = dvec3(direct_[layers_[i].surface]) * a + out.direct * (1.0 - a);
+    }
     out.lookup = dvec3(s.lookup) * a + out.lookup * (1.0 - a);
     out.coverage = a + out.coverage * (1.0 - a);
     out.mirrored = out.mirrored || s.mirrored > 0.0;
@@ -254,7 +261,7 @@ Pixel Tile::finish(const Plan& plan) const {
   pixel.radiance = full.radiance;
   pixel.coverage = centre.coverage;
   pixel.standard_error = full.standard_error;
-  const Enclosed bounded = bounded_ ? enclosed(plan) : Enclosed{};
+  const Enclosed bounded = bounded_ ? enclosed(plan, centre.direct) : Enclosed{};
   const glm::dvec4 open = bounded.deviation + shift + lod;
   pixel.bound = glm::dvec3(open) + centre.lookup + standard_errors * full.standard_error;
   pixel.coverage_bound = shows_background() ? 0.0 : open.w;

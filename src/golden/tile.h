@@ -69,6 +69,7 @@ class Tile {
   };
   struct Composed {
     glm::dvec3 radiance{0.0}, lookup{0.0}, standard_error{0.0};
+    glm::dvec3 direct{0.0};  // with bounds, what of the radiance is no environment's
     double coverage = 0.0;
     bool mirrored = false;
   };
@@ -80,7 +81,7 @@ class Tile {
   bool look_at(const NearMiss& miss, bool front, Plan& plan);
   bool may_open(double step) const;
   void enclose(double step);
-  Enclosed enclosed(const Plan& plan) const;
+  Enclosed enclosed(const Plan& plan, const glm::dvec3& direct) const;
   void add_shifted();
   void add_carried_on();
   bool add_nudged();
@@ -119,6 +120,7 @@ class Tile {
   std::vector<Surface<double>> surfaces_;
   std::vector<int> materials_;  // of surfaces_
   std::vector<Shaded<double>> shaded_;
+  std::vector<brdf::Rgb<double>> direct_;  // with bounds, of surfaces_: radiance without an environment's
   // Under an image, of surfaces_: with bounds, from few directions, drawn alike for all surfaces of a pixel, so that their differences tell
   // what a moved sample changes; and, of those at pixel centres, what is left to the full estimate.
   std::vector<brdf::Rgb<double>> coarse_, refinement_, standard_error_;

@@ -206,7 +206,8 @@ void Tile::enclose(double step) {
   }
 }
 
-Enclosed Tile::enclosed(const Plan& plan) const {
+// @param direct  what encloses lies about: the bounds' own values are not as exact
+Enclosed Tile::enclosed(const Plan& plan, const glm::dvec3& direct) const {
   Enclosed all = bounded_->at(plan.first_bound);
   for (std::size_t i = plan.first_bound + 1; i < plan.last_bound; ++i) {
     const Enclosed other = bounded_->at(i);
@@ -215,6 +216,10 @@ Enclosed Tile::enclosed(const Plan& plan) const {
     all.deviation = glm::max(all.deviation, off);
     all.edge_on = all.edge_on || other.edge_on;
   }
+  if (all.is_bounded()) {
+    all.deviation += glm::dvec4(glm::abs(direct - glm::dvec3(all.value)), 0.0);
+  }
+  all.value = glm::dvec4(direct, all.value.w);
   return all;
 }
 

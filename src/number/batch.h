@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include <xsimd/xsimd.hpp>
 
 #include "number/lanes.h"
@@ -13,6 +15,10 @@
 namespace sheen::number {
 
 using Batch = xsimd::batch<double, xsimd::fma3<xsimd::avx2>>;
+/// Eight floats.
+using FloatBatch = xsimd::batch<float, xsimd::fma3<xsimd::avx2>>;
+using FloatMask = FloatBatch::batch_bool_type;
+using FloatBits = xsimd::batch<std::uint32_t, FloatBatch::arch_type>;
 
 template <>
 struct Lanes<Batch> {

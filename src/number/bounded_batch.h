@@ -138,8 +138,8 @@ class BoundedBatch {
     return {at_center, certain};
   }
   friend TruthBatch operator>(const BoundedBatch& a, const BoundedBatch& b) { return b < a; }
-  friend TruthBatch operator<=(const BoundedBatch& a, const BoundedBatch& b) { return negated(b < a); }
-  friend TruthBatch operator>=(const BoundedBatch& a, const BoundedBatch& b) { return negated(a < b); }
+  friend TruthBatch operator<=(const BoundedBatch& a, const BoundedBatch& b) { return (b < a).negated(); }
+  friend TruthBatch operator>=(const BoundedBatch& a, const BoundedBatch& b) { return (a < b).negated(); }
 
   friend BoundedBatch select(const TruthBatch& condition, const BoundedBatch& a, const BoundedBatch& b) {
     BoundedBatch chosen = b;
@@ -391,8 +391,6 @@ class BoundedBatch {
     const Batch apart = a.upper_ - b.lower_;
     return select(a.is_exact() & b.is_exact(), apart, xsimd::min(affine, apart));
   }
-
-  static TruthBatch negated(const TruthBatch& t) { return {~t.at_center(), ~t.is_either()}; }
 
   Batch center_, shift_x_, shift_y_, radius_, lower_, upper_;
 };

@@ -1,0 +1,206 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include "number/bounded_batch_functions.h"
+#include "number/float_batch.h"
+
+namespace sheen::number {
+
+using RangeTruth = Truths<FloatMask>;
+
+/// Eight values in highp of which only the least and the greatest are known, in float: what samples need that are spread far wider than
+/// rounding, with their displacement, spreads them. Every operation encloses what highp allows of it and rounds outward, some four times
+/// as far. A lane that may leave the format, or where a function may meet what it is not defined for, is lost, and so is all that comes
+/// of it.
+class RangeBatch {
+ public:
+  static constexpr std::size_t lanes = FloatBatch::size;
+  using Bounds = BoundedBatch<Highp>;
+
+  RangeBatch() = default;
+  /// A constant of the shader, in every lane.
+  explicit RangeBatch(double value) : lower_(static_cast<float>(value)), upper_(lower_) {
+    if (!is_representable<Highp>(value)) *this = rounded(lower_, upper_, correct_rounding, Sign::Kept);
+  }
+  /// In each lane what lies between the two; lost where these are not numbers.
+  RangeBatch(const FloatBatch& lower, const FloatBatch& upper) : lower_(lower), upper_(upper) {}
+  /// Of the first four lanes, and the last.
+  RangeBatch(const Bounds& first, const Bounds& last)
+      : lower_(outward(first.lower(), last.lower(), -1.0F)), upper_(outward(first.upper(), last.upper(), 1.0F)) {
+    const FloatBatch beyond = lost(lower_) + lost(upper_);
+    lower_ += beyond;
+    upper_ += beyond;
+  }
+
+  const FloatBatch& lower() const { return lower_; }
+  const FloatBatch& upper() const { return upper_; }
+  FloatMask is_lost() const { return ~(lower_ == lower_); }
+
+  /// Four lanes of it. @param half  0 or 1
+  Bounds bounds(std::size_t half) const {
+    const Batch low = widened(lower_, half);
+    const Batch high = widened(upper_, half);
+    const Batch center = Batch(0.5) * (low + high);
+    const Batch room = Batch(0.5 + 0x1p-50) * (high - low);
+    const Batch radius = select(low == high, Batch(0.0), room + Batch(0x1p-50) * xsimd::abs(center));
+    return Bounds::of_form({center, Batch(0.0), Batch(0.0), radius, low, high}, ~(low == low));
+  }
+
+  /// In these lanes, this becomes the other.
+  void take(const FloatMask& where, const RangeBatch& other) {
+    lower_ = xsimd::select(where, other.lower_, lower_);
+    upper_ = xsimd::select(where, other.upper_, upper_);
+  }
+
+  friend RangeBatch operator-(const RangeBatch& x) { return {-x.upper_, -x.lower_}; }
+  friend RangeBatch operator+(const RangeBatch& a, const RangeBatch& b) {
+    return rounded(a.lower_ + b.lower_, a.upper_ + b.upper_, correct_rounding, Sign::Kept);
+  }
+  friend RangeBatch operator-(const RangeBatch& a, const RangeBatch& b) {
+    return rounded(a.lower_ - b.upper_, a.upper_ - b.lower_, correct_rounding, Sign::Kept);
+  }
+  friend RangeBatch operator*(const RangeBatch& a, const RangeBatch& b) {
+    if (&a == &b) {
+      const RangeBatch size = abs(a);
+      return rounded(size.lower_ * size.lower_, size.upper_ * size.upper_, correct_rounding, Sign::Kept);
+    }
+    if (are_positive(a, b)) return rounded(a.lower_ * b.lower_, a.upper_ * b.upper_, correct_rounding, Sign::Kept);
+    const RangeBatch exact = product(a, b);
+    return rounded(exact.lower_, exact.upper_, correct_rounding, Sign::KeptBeyondZero);
+  }
+  friend RangeBatch operator/(const RangeBatch& a, const RangeBatch& b) {
+    const RangeBatch size = abs(b);
+    const FloatMask divides = (size.lower_ >= FloatBatch(static_cast<float>(Highp::smallest_divisor))) &
+                              (size.upper_ <= FloatBatch(static_cast<float>(Highp::largest_divisor)));
+    const FloatBatch one = xsimd::select(divides, FloatBatch(1.0F), FloatBatch(not_a_number));
+    const RangeBatch exact = product(a, {one / b.upper_, one / b.lower_});
+    return rounded(exact.lower_, exact.upper_, several_ulps, Sign::Open);
+  }
+
+  friend RangeTruth operator<(const RangeBatch& a, const RangeBatch& b) {
+    const FloatMask less = a.upper_ < b.lower_;
+    return {less, less | (a.lower_ >= b.upper_)};
+  }
+  friend RangeTruth operator>(const RangeBatch& a, const RangeBatch& b) { return b < a; }
+  friend RangeTruth operator<=(const RangeBatch& a, const RangeBatch& b) { return (b < a).negated(); }
+  friend RangeTruth operator>=(const RangeBatch& a, const RangeBatch& b) { return (a < b).negated(); }
+
+  friend RangeBatch select(const RangeTruth& condition, const RangeBatch& a, const RangeBatch& b) {
+    const RangeBatch either{xsimd::min(a.lower_, b.lower_) + lost(a.lower_), xsimd::max(a.upper_, b.upper_) + lost(a.upper_)};
+    const auto chosen = [&](const FloatBatch& of_a, const FloatBatch& of_b, const FloatBatch& of_either) {
+      return xsimd::select(condition.is_true(), of_a, xsimd::select(condition.is_false(), of_b, of_either));
+    };
+    return {chosen(a.lower_, b.lower_, either.lower_), chosen(a.upper_, b.upper_, either.upper_)};
+  }
+  friend RangeBatch max(const RangeBatch& a, const RangeBatch& b) {
+    return {xsimd::max(a.lower_, b.lower_) + lost(a.lower_), xsimd::max(a.upper_, b.upper_) + lost(a.upper_)};
+  }
+  friend RangeBatch min(const RangeBatch& a, const RangeBatch& b) {
+    return {xsimd::min(a.lower_, b.lower_) + lost(a.lower_), xsimd::min(a.upper_, b.upper_) + lost(a.upper_)};
+  }
+  friend RangeBatch abs(const RangeBatch& x) {
+    return {xsimd::max(FloatBatch(0.0F), xsimd::max(x.lower_, -x.upper_)), xsimd::max(-x.lower_, x.upper_)};
+  }
+
+  friend RangeBatch sqrt(const RangeBatch& x) { return positive(x, xsimd::sqrt(x.lower_), xsimd::sqrt(x.upper_)); }
+  friend RangeBatch inversesqrt(const RangeBatch& x) {
+    const FloatBatch one(1.0F);
+    return positive(x, one / xsimd::sqrt(x.upper_), one / xsimd::sqrt(x.lower_));
+  }
+  // The others are BoundedBatch's.
+  friend RangeBatch exp(const RangeBatch& x) {
+    return by_halves([](const Bounds& y) { return exp(y); }, x);
+  }
+  friend RangeBatch log(const RangeBatch& x) {
+    return by_halves([](const Bounds& y) { return log(y); }, x);
+  }
+  friend RangeBatch log1p(const RangeBatch& x) {
+    return by_halves([](const Bounds& y) { return log1p(y); }, x);
+  }
+  friend RangeBatch pow(const RangeBatch& x, const RangeBatch& y) {
+    return by_halves([](const Bounds& v, const Bounds& w) { return pow(v, w); }, x, y);
+  }
+  friend RangeBatch pow_from_zero(const RangeBatch& x, const RangeBatch& y) {
+    return by_halves([](const Bounds& v, const Bounds& w) { return pow_from_zero(v, w); }, x, y);
+  }
+
+ private:
+  static constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+  // What an end moves outward, relative to it, in units of 2^-24, of which an ulp is 2 at the most. Of one correct rounding: 2, and 1 for
+  // float's of the exact end and 2 for those on the way outward. Of a quotient (2.5 ulp, taken as a product of a reciprocal), an
+  // inversesqrt (2 ulp) and a sqrt (2 and 2.5 ulp): no more than 9, 2 for float's and 2 on the way.
+  static constexpr float correct_rounding = 8 * 0x1p-24F;
+  static constexpr float several_ulps = 16 * 0x1p-24F;
+  /// More than a flush takes away, and float's own roundings of subnormal numbers.
+  static constexpr float flushed = 0x1p-125F;
+
+  /// Whether an end may be rounded past zero: correct rounding never does that. Where float has several ends to choose from, a zero's own
+  /// sign does not tell what it was before it was rounded.
+  enum class Sign { Open, Kept, KeptBeyondZero };
+
+  /// 0, not a number where x is none.
+  static FloatBatch lost(const FloatBatch& x) { return x - x; }
+
+  static FloatMask is_negative(const FloatBatch& x) { return FloatMask(typename FloatMask::register_type(x)); }
+
+  static bool are_positive(const RangeBatch& a, const RangeBatch& b) { return !xsimd::any(is_negative(a.lower_ | b.lower_)); }
+
+  /// Of the exact ends as float rounds them, those of what a shader may have.
+  static RangeBatch rounded(const FloatBatch& lower, const FloatBatch& upper, float relative, Sign sign) {
+    const FloatBatch size_of_lower = xsimd::abs(lower);
+    const FloatBatch size_of_upper = xsimd::abs(upper);
+    const FloatBatch sizes = size_of_lower + size_of_upper;
+    // Not a number from the format's last binade on, of both ends.
+    const FloatBatch room = xsimd::fma(sizes + sizes, FloatBatch(0.0F), FloatBatch(flushed));
+    FloatBatch low = xsimd::fnma(size_of_lower, FloatBatch(relative), lower) - room;
+    FloatBatch high = xsimd::fma(size_of_upper, FloatBatch(relative), upper) + room;
+    const FloatBatch zero(0.0F);  // first in max() and min(), so that what is not a number stays so
+    if (sign == Sign::Kept) {
+      low = xsimd::select(is_negative(lower), low, xsimd::max(zero, low));
+      high = xsimd::select(is_negative(upper), xsimd::min(zero, high), high);
+    } else if (sign == Sign::KeptBeyondZero) {
+      low = xsimd::select(lower > zero, xsimd::max(zero, low), low);
+      high = xsimd::select(upper < zero, xsimd::min(zero, high), high);
+    }
+    return {low, high};
+  }
+
+  /// The ends of all products, each rounded by float.
+  static RangeBatch product(const RangeBatch& a, const RangeBatch& b) {
+    if (are_positive(a, b)) return {a.lower_ * b.lower_, a.upper_ * b.upper_};
+    const FloatBatch p[4] = {a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_, a.upper_ * b.upper_};
+    return {xsimd::min(xsimd::min(p[0], p[1]), xsimd::min(p[2], p[3])), xsimd::max(xsimd::max(p[0], p[1]), xsimd::max(p[2], p[3]))};
+  }
+
+  /// Of a function of positive numbers.
+  static RangeBatch positive(const RangeBatch& x, const FloatBatch& lower, const FloatBatch& upper) {
+    const FloatMask defined = x.lower_ >= FloatBatch(static_cast<float>(smallest_normal<Highp>));
+    const FloatBatch none(not_a_number);
+    return rounded(xsimd::select(defined, lower, none), xsimd::select(defined, upper, none), several_ulps, Sign::Open);
+  }
+
+  /// The nearest floats, and from those that lie inside one step outward.
+  /// @param side  -1 for lower ends, 1 for upper ones
+  static FloatBatch outward(const Batch& first, const Batch& last, float side) {
+    const FloatBatch nearest = narrowed(first, last);
+    const auto inside = [&](const Batch& exact, std::size_t half) {
+      return select((exact - widened(nearest, half)) * Batch(side) > Batch(0.0), Batch(1.0), Batch(0.0));
+    };
+    const FloatBatch step = xsimd::fma(xsimd::abs(nearest), FloatBatch(side * 0x1p-23F), FloatBatch(side * 0x1p-149F));
+    return xsimd::fma(narrowed(inside(first, 0), inside(last, 1)), step, nearest);
+  }
+
+  FloatBatch lower_, upper_;  // where lost, neither is a number
+};
+
+/// The lanes are samples, as BoundedBatch's.
+template <>
+struct Lanes<RangeBatch> {
+  static constexpr std::size_t count = 1;
+  static RangeBatch load(const double* values) { return RangeBatch(*values); }
+};
+
+}  // namespace sheen::number
