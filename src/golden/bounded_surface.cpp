@@ -14,7 +14,6 @@
 #include "golden/normal_levels.h"
 #include "golden/texture_box.h"
 #include "golden/varying.h"
-#include "golden/vertex_rounding.h"
 #include "number/bounded_functions.h"
 
 namespace sheen::golden {
@@ -185,16 +184,13 @@ Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
 
 // In view space.
 Vector BoundedSurfaceReader::At::position() const {
-  const std::array<glm::dvec3, 3> magnitudes = position_magnitudes(r_.geometry_, r_.rays_, hit_.triangle);
+  const glm::dvec3 roundings = transform_roundings * epsilon * r_.rounding(hit_.triangle).largest_magnitude();
   std::array<glm::dvec3, 3> p;
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec3& world = r_.geometry_.positions()[r_.geometry_.vertices(hit_.triangle).at(i)];
     p.at(i) = r_.view_from_world_ * (world - glm::dvec3(r_.rays_.camera().world_from_camera[3]));
   }
-  const auto axis = [&](int k) {
-    const double largest = std::max({magnitudes[0][k], magnitudes[1][k], magnitudes[2][k]});
-    return bound(interpolate_({p[0][k], p[1][k], p[2][k]}, transform_roundings * epsilon * largest));
-  };
+  const auto axis = [&](int k) { return bound(interpolate_({p[0][k], p[1][k], p[2][k]}, roundings[k])); };
   return {axis(0), axis(1), axis(2)};
 }
 
@@ -358,7 +354,12 @@ BoundedSurface BoundedSurfaceReader::At::read() const {
 
 BoundedSurfaceReader::BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader,
                                            brdf::Model model)
-    : geometry_(geometry), rays_(rays), reader_(reader), model_(model), view_from_world_(rotation_into_view(rays.camera())) {}
+    : geometry_(geometry), rays_(rays), reader_(reader), model_(model), view_from_world_(rotation_into_view(rays.camera())) {
+  roundings_.reserve(geometry.triangle_count());
+  for (std::uint32_t triangle = 0; triangle < geometry.triangle_count(); ++triangle) {
+    roundings_.emplace_back(geometry, rays, triangle);
+  }
+}
 
 BoundedSurface BoundedSurfaceReader::read(const Hit& hit, const Ray& ray, double step) const {
   return At(*this, hit, ray, step).read();

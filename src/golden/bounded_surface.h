@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "golden/bound.h"
@@ -8,6 +9,7 @@
 #include "golden/rays.h"
 #include "golden/surface.h"
 #include "golden/surface_reader.h"
+#include "golden/vertex_rounding.h"
 
 namespace sheen::golden {
 
@@ -35,6 +37,8 @@ class BoundedSurfaceReader {
   /// Its opacity alone, in [0, 1].
   Bound opacity(const Hit& hit, const Ray& ray, double step) const;
 
+  const VertexRounding& rounding(std::uint32_t triangle) const { return roundings_[triangle]; }
+
  private:
   class At;
   const Geometry& geometry_;
@@ -42,6 +46,7 @@ class BoundedSurfaceReader {
   const SurfaceReader& reader_;
   brdf::Model model_;
   glm::dmat3 view_from_world_;
+  std::vector<VertexRounding> roundings_;  // by triangle
 };
 
 }  // namespace sheen::golden

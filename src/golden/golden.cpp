@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "golden/frame.h"
@@ -87,8 +88,9 @@ image::Image render(const scene::Scene& scene, const Settings& settings) {
   if (settings.bounds) {
     bound.emplace(frame);
   }
+  tbb::enumerable_thread_specific<Tile> tiles([&] { return Tile(frame, bound ? &*bound : nullptr); });
   const auto draw = [&](const tbb::blocked_range<int>& range) {
-    Tile tile(frame, bound ? &*bound : nullptr);
+    Tile& tile = tiles.local();  // with the memory of its last pixels
     for (int i = range.begin(); i < range.end(); ++i) {
       const int x0 = i % columns * tile_size;
       const int y0 = i / columns * tile_size;

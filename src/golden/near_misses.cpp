@@ -49,9 +49,10 @@ bool may_turn_over(const std::vector<WindowPoint>& polygon, double reach) {
 double reach_of(const Frame& frame, std::uint32_t triangle, const std::vector<WindowPoint>& polygon) {
   const double grid = std::ldexp(0.5, -frame.settings.subpixel_bits);
   double most = displacement(frame.settings);
+  const VertexRounding rounding(frame.geometry, frame.rays, triangle);
   for (const WindowPoint& corner : polygon) {
     const Hit hit{triangle, corner.weights, corner.depth, true};
-    most = std::max(most, grid + window_rounding(frame.geometry, frame.rays, hit));
+    most = std::max(most, grid + rounding.in_window(frame.rays, hit));
   }
   return std::min(most, 1.0);
 }

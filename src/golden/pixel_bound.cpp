@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "golden/vertex_rounding.h"
-
 namespace sheen::golden {
 namespace {
 
@@ -41,7 +39,7 @@ PixelBound::PixelBound(const Frame& frame)
 double PixelBound::step(const Seen& seen) const {
   const double grid = std::ldexp(0.5, -frame_.settings.subpixel_bits);
   double most = displacement(frame_.settings);
-  const auto include = [&](const Hit& hit) { most = std::max(most, grid + window_rounding(frame_.geometry, frame_.rays, hit)); };
+  const auto include = [&](const Hit& hit) { most = std::max(most, grid + reader_.rounding(hit.triangle).in_window(frame_.rays, hit)); };
   if (seen.nearest) {
     include(*seen.nearest);
   }

@@ -11,6 +11,8 @@
 namespace sheen::golden {
 namespace {
 
+constexpr double epsilon = number::epsilon<number::Highp>;
+
 glm::dmat3 absolute(const glm::dmat3& m) {
   return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
 }
@@ -34,26 +36,29 @@ std::array<glm::dvec3, 3> position_magnitudes(const Geometry& geometry, const Ra
   return out;
 }
 
-double window_rounding(const Geometry& geometry, const RayGenerator& rays, const Hit& hit) {
-  constexpr double epsilon = number::epsilon<number::Highp>;
-  const std::array<glm::dvec3, 3> magnitudes = position_magnitudes(geometry, rays, hit.triangle);
+VertexRounding::VertexRounding(const Geometry& geometry, const RayGenerator& rays, std::uint32_t triangle) : largest_(0.0) {
+  const std::array<glm::dvec3, 3> magnitudes = position_magnitudes(geometry, rays, triangle);
   const scene::Camera& camera = rays.camera();
   const glm::dmat3 view = view_from_world(rays);
   const double aspect = static_cast<double>(rays.width()) / rays.height();
   const double per_height = 1.0 / (camera.perspective ? std::tan(0.5 * camera.yfov) : camera.ymag);  // of clip coordinates by view space
-  const double depth = camera.perspective ? std::max(hit.t, camera.znear) : 1.0;
-  double across = 0.0;  // at the hit, in clip coordinates over w
-  double along = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double weight = std::abs(hit.weights[static_cast<int>(i)]);
     const glm::dvec3& m = magnitudes.at(i);
     const glm::dvec3 p =
-        glm::abs(view * (geometry.positions()[geometry.vertices(hit.triangle).at(i)] - glm::dvec3(camera.world_from_camera[3])));
+        glm::abs(view * (geometry.positions()[geometry.vertices(triangle).at(i)] - glm::dvec3(camera.world_from_camera[3])));
     const double w = camera.perspective ? transform_roundings * m.z : 0.0;  // a point of the picture lies within w of its axis
-    across += weight * (per_height / aspect * (transform_roundings * m.x + 4.5 * p.x) + w);
-    along += weight * (per_height * (transform_roundings * m.y + 4.5 * p.y) + w);
+    const glm::dvec2 clip(per_height / aspect * (transform_roundings * m.x + 4.5 * p.x) + w,
+                          per_height * (transform_roundings * m.y + 4.5 * p.y) + w);
+    of_vertices_.at(i) = 0.5 * epsilon * glm::dvec2(rays.width(), rays.height()) * clip;
+    largest_ = glm::max(largest_, m);
   }
-  return 0.5 * epsilon * std::max(rays.width() * across, rays.height() * along) / depth + epsilon * std::max(rays.width(), rays.height());
+}
+
+double VertexRounding::in_window(const RayGenerator& rays, const Hit& hit) const {
+  const glm::dvec3 shares = glm::abs(hit.weights);
+  const glm::dvec2 sum = shares.x * of_vertices_[0] + shares.y * of_vertices_[1] + shares.z * of_vertices_[2];
+  const double depth = rays.camera().perspective ? std::max(hit.t, rays.camera().znear) : 1.0;
+  return std::max(sum.x, sum.y) / depth + epsilon * std::max(rays.width(), rays.height());
 }
 
 }  // namespace sheen::golden

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "golden/geometry.h"
@@ -17,9 +19,21 @@ inline constexpr double transform_roundings = 4;
 /// roundings of the vertex's place are relative to. It may be far more than the place itself.
 std::array<glm::dvec3, 3> position_magnitudes(const Geometry& geometry, const RayGenerator& rays, std::uint32_t triangle);
 
-/// How far along either axis the roundings of a triangle's vertices may displace a sample at a hit, in pixels. Clip coordinates err by
-/// transform_roundings of the magnitudes, and a point of the triangle by the same mean of them as it is of the vertices; the quotient by w
-/// and the viewport's scale and offset err by 2.5 + 2 of each vertex's place in the window.
-double window_rounding(const Geometry& geometry, const RayGenerator& rays, const Hit& hit);
+/// What the roundings of a triangle's vertices displace. Clip coordinates err by transform_roundings of the magnitudes, and a point of the
+/// triangle by the same mean of them as it is of the vertices; the quotient by w and the viewport's scale and offset err by 2.5 + 2 of each
+/// vertex's place in the window.
+class VertexRounding {
+ public:
+  VertexRounding(const Geometry& geometry, const RayGenerator& rays, std::uint32_t triangle);
+
+  /// How far along either axis a sample at a hit of it may be displaced, in pixels.
+  double in_window(const RayGenerator& rays, const Hit& hit) const;
+  /// The largest of position_magnitudes().
+  const glm::dvec3& largest_magnitude() const { return largest_; }
+
+ private:
+  std::array<glm::dvec2, 3> of_vertices_;  // in pixels times depth
+  glm::dvec3 largest_;
+};
 
 }  // namespace sheen::golden

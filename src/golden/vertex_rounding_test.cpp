@@ -62,7 +62,7 @@ TEST(VertexRounding, HoldsWhereFloatsPutASample) {
         // Its share of the window's point, where weights count by 1 / w.
         moved += hit->weights[static_cast<int>(i)] * clip.w / hit->t * (by_floats(s, matrix, i) - exact);
       }
-      const double most = window_rounding(geometry, rays, *hit);
+      const double most = VertexRounding(geometry, rays, hit->triangle).in_window(rays, *hit);
       EXPECT_LE(std::max(std::abs(moved.x), std::abs(moved.y)), most) << x << ' ' << y;
       farthest = std::max(farthest, std::max(std::abs(moved.x), std::abs(moved.y)) / most);
     }
@@ -75,7 +75,7 @@ TEST(VertexRounding, IsSmallWhereNothingCancels) {
   const Geometry geometry(s);
   const RayGenerator rays(s.cameras[0], size, size);
   const Hit hit = geometry.meet(0, rays.through(70.5, 60.5)).value();
-  EXPECT_LT(window_rounding(geometry, rays, hit), 16.0 * size * 0x1p-23);
+  EXPECT_LT(VertexRounding(geometry, rays, hit.triangle).in_window(rays, hit), 16.0 * size * 0x1p-23);
 }
 
 TEST(VertexRounding, KnowsThatAFarMeshIsDrawnAboutItsMiddle) {

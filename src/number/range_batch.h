@@ -64,9 +64,9 @@ class RangeBatch {
   friend RangeBatch operator*(const RangeBatch& a, const RangeBatch& b) {
     if (&a == &b) {
       const RangeBatch size = abs(a);
-      return rounded(size.lower_ * size.lower_, size.upper_ * size.upper_, correct_rounding, Sign::Kept);
+      return rounded_positive(size.lower_ * size.lower_, size.upper_ * size.upper_);
     }
-    if (are_positive(a, b)) return rounded(a.lower_ * b.lower_, a.upper_ * b.upper_, correct_rounding, Sign::Kept);
+    if (are_positive(a, b)) return rounded_positive(a.lower_ * b.lower_, a.upper_ * b.upper_);
     const RangeBatch exact = product(a, b);
     return rounded(exact.lower_, exact.upper_, correct_rounding, Sign::KeptBeyondZero);
   }
@@ -166,6 +166,13 @@ class RangeBatch {
       high = xsimd::select(upper < zero, xsimd::min(zero, high), high);
     }
     return {low, high};
+  }
+
+  /// The same of ends that are not negative, correctly.
+  static RangeBatch rounded_positive(const FloatBatch& lower, const FloatBatch& upper) {
+    const FloatBatch room = xsimd::fma(upper + upper, FloatBatch(0.0F), FloatBatch(flushed));
+    return {xsimd::max(FloatBatch(0.0F), xsimd::fms(lower, FloatBatch(1 - correct_rounding), room)),
+            xsimd::fma(upper, FloatBatch(1 + correct_rounding), room)};
   }
 
   /// The ends of all products, each rounded by float.
