@@ -88,7 +88,9 @@ class AffineBatch {
   }
 
   friend AffineBatch operator*(const AffineBatch& a, const AffineBatch& b) {
-    const FloatBatch first_order = xsimd::fma(xsimd::abs(a.center_), b.radius_of_factor(), xsimd::abs(b.center_) * a.radius_of_factor());
+    // Of a shift's two parts one is rounded before they are added, and may then be all that is left of it.
+    const FloatBatch radius_a = xsimd::fma(a.spread_, FloatBatch(2 * unit), a.radius_);
+    const FloatBatch first_order = xsimd::fma(xsimd::abs(a.center_), b.radius_, xsimd::abs(b.center_) * radius_a);
     AffineBatch product;
     product.round(a.center_ * b.center_, xsimd::fma(a.center_, b.shift_x_, b.center_ * a.shift_x_),
                   xsimd::fma(a.center_, b.shift_y_, b.center_ * a.shift_y_), xsimd::fma(a.spread_, b.spread_, first_order));
@@ -104,8 +106,9 @@ class AffineBatch {
     const FloatBatch shift_x = xsimd::fnma(quotient, b.shift_x_, a.shift_x_) * inverse;
     const FloatBatch shift_y = xsimd::fnma(quotient, b.shift_y_, a.shift_y_) * inverse;
     // With d the difference of a and the quotient times b, of which a part is displaced, that part over b's centre has left this of d / b.
-    const FloatBatch rest = xsimd::fma(xsimd::abs(quotient), b.radius_of_factor(), a.radius_of_factor()) +
-                            (xsimd::abs(shift_x) + xsimd::abs(shift_y)) * b.spread_;
+    // The quotient's own rounding comes into both shifts.
+    const FloatBatch radius_b = xsimd::fma(b.spread_, FloatBatch(4 * unit), b.radius_);
+    const FloatBatch rest = xsimd::fma(xsimd::abs(quotient), radius_b, a.radius_) + (xsimd::abs(shift_x) + xsimd::abs(shift_y)) * b.spread_;
     AffineBatch out;
     out.round(quotient, shift_x, shift_y, rest / smallest, division_ulps);
     out.lose(~((smallest >= FloatBatch(static_cast<float>(Highp::smallest_divisor))) &
@@ -195,10 +198,6 @@ class AffineBatch {
     if (!xsimd::all(straight)) out.take(~straight, by_halves(of_bounds, x));
     return out;
   }
-
-  /// What of a product's factor, with the other's centre, comes into the product's radius: with float's three roundings of the two parts of
-  /// each shift, which may cancel.
-  FloatBatch radius_of_factor() const { return xsimd::fma(spread_, FloatBatch(4 * unit), radius_); }
 
   /// Becomes an exact result after an operation's error.
   /// @param radius  short of its own roundings and the shifts' last

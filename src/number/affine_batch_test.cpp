@@ -168,6 +168,19 @@ TEST(AffineBatch, RoundsNothingWhereBoundsDoNot) {
   EXPECT_GE(lane(form_of(Single::within(0x1p-70, 0x1p-90)) * form_of(Single::within(0x1p-70, 0x1p-90))).radius(), 0x1p-140);
 }
 
+TEST(AffineBatch, HoldsWhatFloatRoundsOfCentresAndShifts) {
+  if (!has_batch()) return;
+  Form sum = form_of(Single::at_sample(1, 0.5, 0, 1, 0));
+  const Form little = form_of(Single::at_sample(0x1p-24, 0x1p-25, 0, 1, 0));  // half of what either can hold
+  double largest = 1.5;
+  for (int i = 0; i < 8; ++i) {
+    sum = sum + little;
+    largest += 0x1p-24 + 0x1p-25 + (1 - 1e-6) * 0x1p-23;
+  }
+  ASSERT_EQ(lane(sum).center() + lane(sum).shift_x(), 1.5);
+  EXPECT_LE(largest - 1.5, lane(sum).radius());
+}
+
 TEST(AffineBatch, CancelsWhereBothMoveAlike) {
   if (!has_batch()) return;
   const Form x = form_of(Single::at_sample(0.75, 3e-2, -2e-2, 1, 0));

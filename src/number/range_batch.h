@@ -185,8 +185,8 @@ class RangeBatch {
   /// Of a function of positive numbers.
   static RangeBatch positive(const RangeBatch& x, const FloatBatch& lower, const FloatBatch& upper) {
     const FloatMask defined = x.lower_ >= FloatBatch(static_cast<float>(smallest_normal<Highp>));
-    const FloatBatch none(not_a_number);
-    return rounded(xsimd::select(defined, lower, none), xsimd::select(defined, upper, none), several_ulps, Sign::Open);
+    // One end that is no number loses both.
+    return rounded(lower, xsimd::select(defined, upper, FloatBatch(not_a_number)), several_ulps, Sign::Open);
   }
 
   /// The nearest floats, and from those that lie inside one step outward.

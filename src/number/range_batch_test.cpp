@@ -118,6 +118,8 @@ TEST(RangeBatch, LosesWhatLeavesTheFormatAndKeepsItLost) {
   EXPECT_TRUE(is_lost(range(1, 2) / RangeBatch(0.0)));
   EXPECT_TRUE(is_lost(sqrt(range(-1, 1))));
   EXPECT_TRUE(is_lost(inversesqrt(range(0, 1))));
+  EXPECT_TRUE(is_lost(inversesqrt(range(0x1p-127, 1)))) << "which may be flushed";
+  EXPECT_TRUE(is_lost(sqrt(range(0, 1)))) << "1 / inversesqrt(0)";
   EXPECT_TRUE(is_lost(log(range(-1, 1))));
   EXPECT_TRUE(is_lost(RangeBatch(1e39)));
   const Bounds unbounded(Single::unbounded(0.5));
