@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -141,6 +142,12 @@ TEST(GgxInterpolant, HoldsAtItsCornersAndTakesAMirrorForOne) {
   EXPECT_EQ(interpolant(0.5, 0).loss, 0);
   EXPECT_EQ(interpolant(0.5, 0).bias, std::pow(0.5, 5));
   EXPECT_EQ(interpolant(0, 0.5).loss, interpolant(min_n_dot_v, 0.5).loss) << "cosines are floored";
+}
+
+TEST(GgxInterpolant, MakesNoNumberOfWhatIsNone) {
+  const GgxInterpolant interpolant;
+  EXPECT_TRUE(std::isnan(interpolant(std::numeric_limits<double>::quiet_NaN(), 0.3).loss));
+  EXPECT_TRUE(std::isnan(interpolant(std::numeric_limits<double>::quiet_NaN(), 0.3).bias));
 }
 
 TEST(GgxInterpolant, GivesEveryThreadTheSame) {

@@ -129,6 +129,9 @@ GgxAlbedo GgxInterpolant::operator()(double n_dot_v, double alpha) const {
   if (!(alpha > mirror_alpha)) {
     return ggx_albedo(mu, 0);
   }
+  if (std::isnan(mu)) {
+    return {mu, mu};
+  }
   const double u = std::log(half_elevation_tangent(mu)) / -patch_x, v = std::log(std::min(alpha, 1.0)) / -patch_y;  // in patches
   const int ix = std::min(static_cast<int>(u), patches_x - 1), iy = std::min(static_cast<int>(v), patches_y - 1);
   Patch& patch = impl_->patches[iy][ix];

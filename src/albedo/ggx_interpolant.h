@@ -17,6 +17,7 @@ class GgxInterpolant {
   GgxInterpolant& operator=(GgxInterpolant&&) noexcept;
 
   /// ggx_albedo; cosines below min_n_dot_v count as min_n_dot_v, of light and of view alike, so that what is built of it stays reciprocal.
+  /// Of what is no number it makes none.
   GgxAlbedo operator()(double n_dot_v, double alpha) const;
   /// ggx_average_albedo.
   GgxAlbedo average(double alpha) const;

@@ -1,6 +1,9 @@
 #include "golden/bound_all.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -190,6 +193,69 @@ TEST(BoundAll, CurvesAboutOneRoughnessAgreeWithTheInterpolant) {
     if (slow[i].g.is_bounded()) {
       EXPECT_NEAR(slow[i].g.center(), fast[i].g.center(), 1e-9 * (1.0 + slow[i].g.center()));
       EXPECT_NEAR(slow[i].g.deviation(), fast[i].g.deviation(), 1e-9 + 1e-4 * slow[i].g.deviation());
+    }
+  }
+}
+
+/// One of all that an uncertain number may be.
+double held(const Bound& x, double u, double v, double e) {
+  const double at = x.center() + u * x.shift_x() + v * x.shift_y() + e * x.radius();
+  return x.is_bounded() ? std::clamp(at, x.range().lower, x.range().upper) : at;
+}
+
+Surface<double> held(const Surface<Bound>& surface, std::mt19937& random) {
+  std::uniform_int_distribution<int> side(-1, 1);
+  const double u = side(random);
+  const double v = side(random);
+  constexpr std::size_t numbers = sizeof(Surface<double>) / sizeof(double);
+  std::array<Bound, numbers> bounds;
+  std::memcpy(static_cast<void*>(bounds.data()), static_cast<const void*>(&surface), sizeof(surface));
+  std::array<double, numbers> values{};
+  for (std::size_t i = 0; i < numbers; ++i) {
+    values.at(i) = held(bounds.at(i), u, v, side(random));
+  }
+  Surface<double> out;
+  std::memcpy(static_cast<void*>(&out), values.data(), sizeof(out));
+  return out;
+}
+
+// Normals that a map leaves open, which are done by ranges: with all that a surface may be, in both ways of the batch.
+TEST(BoundAll, BatchesHoldSurfacesOfOpenNormals) {
+  if (!number::has_batch()) {
+    return;
+  }
+  std::mt19937 random(7);
+  Comparison c;
+  for (Surface<Bound>& s : c.surfaces) {
+    for (Bound* axis : {&s.normal.x, &s.normal.y, &s.normal.z, &s.coat_normal.x, &s.coat_normal.y, &s.coat_normal.z}) {
+      *axis = Bound::within(axis->center(), std::uniform_real_distribution<double>(0.002, 0.08)(random));
+    }
+  }
+  c.surfaces[11].normal.x = Bound::unbounded(0.3);
+  std::vector<std::uint32_t> order(c.surfaces.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const albedo::Interpolant e(albedo::Visibility::Charlie);
+  const albedo::GgxInterpolant ggx;
+  for (const bool physical : {false, true}) {
+    Lighting lighting;
+    lighting.lights = c.lights.data();
+    lighting.light_count = c.lights.size();
+    lighting.albedo.interpolant = &e;
+    lighting.ggx = physical ? &ggx : nullptr;
+    const Layers layers{!physical, !physical};
+    for (const bool ranges_alone : {false, true}) {
+      std::vector<brdf::Rgb<Bound>> many(c.surfaces.size());
+      bound_all_batch({c.surfaces.data(), order.data(), order.size(), layers, Precision::Highp, ranges_alone}, lighting, many.data());
+      int bounded = 0;
+      for (std::size_t i = 0; i < many.size(); ++i) {
+        bounded += many[i].g.is_bounded() ? 1 : 0;
+        for (int k = 0; k < 30 && many[i].g.is_bounded(); ++k) {
+          const double there = shade(held(c.surfaces[i], random), layers, lighting, NoListener{}).radiance.g;
+          ASSERT_LE(std::abs(there - many[i].g.center()), many[i].g.deviation()) << "surface " << i << ' ' << ranges_alone;
+        }
+      }
+      EXPECT_FALSE(many[11].g.is_bounded());
+      EXPECT_GT(bounded, 100);
     }
   }
 }

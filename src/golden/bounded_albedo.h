@@ -66,10 +66,10 @@ struct AlbedoReader<number::Bounded<Precision>> {
 
   template <class Function, class Error>
   static B read(const Function& f, const Error& error, const B& x, const B& y) {
-    const double value = f(x.center(), End::Center);
     if (!x.is_bounded() || !y.is_bounded()) {
-      return B::unbounded(value);
+      return B::unbounded(0.0);  // their centres need not be numbers
     }
+    const double value = f(x.center(), End::Center);
     const double width = x.range().upper - x.range().lower;
     double lowest = value;
     double highest = value;

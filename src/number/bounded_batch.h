@@ -36,11 +36,10 @@ class BoundedBatch {
         lower_(one.range().lower),
         upper_(one.range().upper) {}
 
-  /// A form with its range, in double and not to be rounded; unbounded in some lanes.
+  /// A form with its range, in double and not to be rounded; unbounded about 0 in some lanes.
   static BoundedBatch of_form(const ExactBatch& x, const BatchMask& unbounded) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     BoundedBatch b(x.center, x.shift_x, x.shift_y, x.radius, x.lower, x.upper);
-    if (xsimd::any(unbounded)) b.take(unbounded, {x.center, Batch(0.0), Batch(0.0), Batch(infinity), Batch(-infinity), Batch(infinity)});
+    if (xsimd::any(unbounded)) b.take(unbounded, BoundedBatch(One::unbounded(0.0)));
     return b;
   }
 
