@@ -17,11 +17,11 @@ struct Term {
 };
 
 /// D and V only ever appear as their product, and so do the base and its scale: one factor stands for both.
-constexpr std::array<Term, 5> terms = {{{"sheen lobe D V", &golden::TermFactors::distribution},
-                                        {"base or its albedo scale s", &golden::TermFactors::base},
-                                        {"coat weight", &golden::TermFactors::coat_weight},
-                                        {"coat lobe", &golden::TermFactors::coat_lobe},
-                                        {"emission", &golden::TermFactors::emission}}};
+constexpr std::array<Term, 5> probed_terms = {{{"sheen lobe D V", &golden::TermFactors::distribution},
+                                               {"base or its albedo scale s", &golden::TermFactors::base},
+                                               {"coat weight", &golden::TermFactors::coat_weight},
+                                               {"coat lobe", &golden::TermFactors::coat_lobe},
+                                               {"emission", &golden::TermFactors::emission}}};
 
 struct Pixel {
   int x = 0;
@@ -144,7 +144,7 @@ Diagnosis diagnose(const scene::Scene& scene, const golden::Settings& settings, 
     return diagnosis;
   }
   diagnosis.residual = residual_of(pixels, {}, 1);
-  for (const Term& term : terms) {
+  for (const Term& term : probed_terms) {
     TermFit fit;
     if (fit_term(probe, pixels, term, fit)) {
       diagnosis.fits.push_back(fit);

@@ -15,7 +15,7 @@
 namespace sheen::conformance {
 namespace {
 
-constexpr std::array names = {"white", "sky", "sun"};
+constexpr std::array all_environments = {"white", "sky", "sun"};
 
 const glm::dvec3 toward_sun = glm::normalize(glm::dvec3(0.6, 0.55, 0.7));
 
@@ -67,7 +67,7 @@ scene::Environment make_image(const std::string& name) {
 }  // namespace
 
 bool is_environment(const std::string& name) {
-  for (const char* known : names) {
+  for (const char* known : all_environments) {
     if (name == known) {
       return true;
     }
@@ -77,7 +77,7 @@ bool is_environment(const std::string& name) {
 
 std::string environment_names() {
   std::string list;
-  for (const char* name : names) {
+  for (const char* name : all_environments) {
     list += (list.empty() ? "" : ", ") + std::string(name);
   }
   return list;

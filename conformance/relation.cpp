@@ -17,9 +17,9 @@ constexpr std::array<std::pair<RelationKind, const char*>, 4> kinds = {{{Relatio
                                                                         {RelationKind::Linear, "linear"}}};
 
 /// Reads the members of a `relation`, naming file and element in what it throws.
-class Reader {
+class RelationReader {
  public:
-  Reader(const json& declared, std::string file, std::string element)
+  RelationReader(const json& declared, std::string file, std::string element)
       : declared_(declared), file_(std::move(file)), element_(std::move(element)) {
     check_keys(declared_,
                {"kind", "law", "source", "scenes", "weights", "tolerance", "share", "region", "mirrored", "moved", "exact", "excuse"},
@@ -90,8 +90,8 @@ class Reader {
   std::string element_;
 };
 
-void add_scenes(const json& scenes, const SweepPoint& point, const std::string& file, const std::string& element, const Reader& reader,
-                Relation& relation) {
+void add_scenes(const json& scenes, const SweepPoint& point, const std::string& file, const std::string& element,
+                const RelationReader& reader, Relation& relation) {
   std::set<std::string> seen;
   for (const json& scene : scenes) {
     check_keys(scene, {"label", "patch"}, file, element + ".scenes");
@@ -114,7 +114,7 @@ void add_scenes(const json& scenes, const SweepPoint& point, const std::string& 
   }
 }
 
-void check_limits(const Relation& relation, const Reader& reader) {
+void check_limits(const Relation& relation, const RelationReader& reader) {
   const auto& [left, top, right, bottom] = relation.region;
   if (!(left >= 0 && top >= 0 && right <= 1 && bottom <= 1 && left < right && top < bottom)) {
     reader.fail("region must be left, top, right, bottom within 0 and 1");
@@ -145,7 +145,7 @@ Relation make_relation(SweepPoint point, const std::string& file, const std::str
   const std::string where = element + " relation '" + point.name + "'";
   const json declared = point.description.at("relation");
   point.description.erase("relation");
-  const Reader reader(declared, file, where);
+  const RelationReader reader(declared, file, where);
   Relation relation;
   relation.name = point.name;
   relation.kind = reader.kind();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "albedo/sheen_model.h"
 #include "brdf/math.h"
@@ -38,5 +39,10 @@ inline constexpr double branch_x = -1.3169578969248168;
 
 /// Past this value of log_peak_drop E is below 1e-16 and counts as 0.
 inline constexpr double negligible_drop = 45;
+
+/// Lagrange weights of the nodes 0, 1, 2, 3 at t in [0, 3].
+inline std::array<double, 4> cubic_weights(double t) {
+  return {-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2, t * (t - 1) * (t - 2) / 6};
+}
 
 }  // namespace sheen::albedo

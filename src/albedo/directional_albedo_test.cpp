@@ -12,8 +12,6 @@
 namespace sheen::albedo {
 namespace {
 
-constexpr Visibility all[] = {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined};
-
 // At normal incidence and at grazing the integral has a closed form, so quadrature and formula check each other.
 TEST(DirectionalAlbedo, AshikhminAtNormalIncidenceMeetsItsClosedForm) {
   for (double r : {0.05, 0.1, 0.25, 0.5, 1.0}) {
@@ -57,7 +55,7 @@ double by_midpoint(Visibility visibility, double mu, double r, int steps) {
 }
 
 TEST(DirectionalAlbedo, MeetsTheDefinitionSummedOverTheSphere) {
-  for (Visibility visibility : all) {
+  for (Visibility visibility : brdf::visibilities) {
     for (double r : {0.2, 0.5, 0.9}) {
       for (double mu : {0.15, 0.5, 0.8}) {
         // The rule's error falls with the square of the step: Richardson's extrapolation removes it.
@@ -70,7 +68,7 @@ TEST(DirectionalAlbedo, MeetsTheDefinitionSummedOverTheSphere) {
 }
 
 TEST(DirectionalAlbedo, IsZeroAtRoughnessZero) {
-  for (Visibility visibility : all) {
+  for (Visibility visibility : brdf::visibilities) {
     EXPECT_EQ(directional_albedo(visibility, 0.5, 0.0), 0);
     EXPECT_EQ(directional_albedo(visibility, 1e-4, 0.0), 0);
     EXPECT_EQ(directional_albedo(visibility, 0.5, 1e-170), 0);
@@ -110,7 +108,7 @@ TEST(Quadrature, FastAndFullMeetTheirErrors) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int i = 0; i < 1500; ++i) {
-    const Visibility visibility = all[i % 3];
+    const Visibility visibility = brdf::visibilities[i % 3];
     const double mu = std::exp(std::log(min_n_dot_v) * unit(generator)), r = std::exp(std::log(0.003) * unit(generator));
     // Twice the nodes of Full in both directions, in scalar arithmetic.
     const double fast = log_directional_albedo_fast(visibility, mu, r), full = log_directional_albedo(visibility, mu, r);

@@ -30,11 +30,9 @@
 namespace sheen::albedo {
 namespace {
 
-constexpr double lossless_alpha = 1e-10;  // below, nothing here has the digits
+using brdf::square;
 
-double square(double x) {
-  return x * x;
-}
+constexpr double lossless_alpha = 1e-10;  // below, nothing here has the digits
 
 // mu Lambda(mu), which has a limit at mu = 0.
 double shadow(double a2, double mu) {

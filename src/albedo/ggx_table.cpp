@@ -12,11 +12,6 @@
 namespace sheen::albedo {
 namespace {
 
-// Lagrange weights of the nodes 0, 1, 2, 3 at t in [0, 3].
-std::array<double, 4> cubic_weights(double t) {
-  return {-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2, t * (t - 1) * (t - 2) / 6};
-}
-
 // The four nodes around a position, in nodes.
 struct Stencil {
   int first;

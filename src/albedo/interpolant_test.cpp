@@ -15,7 +15,7 @@ namespace {
 TEST(Interpolant, MeetsQuadratureEverywhere) {
   std::mt19937 generator(11);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (Visibility visibility : brdf::visibilities) {
     const Interpolant interpolant(visibility);
     for (int i = 0; i < 1500; ++i) {
       const double mu = i % 2 == 0 ? std::max(min_n_dot_v, unit(generator)) : std::exp(std::log(min_n_dot_v) * unit(generator));
@@ -30,7 +30,7 @@ TEST(Interpolant, MeetsQuadratureEverywhere) {
 TEST(Interpolant, HoldsRelativelyAboutNormalIncidence) {
   std::mt19937 generator(12);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (Visibility visibility : brdf::visibilities) {
     const Interpolant interpolant(visibility);
     for (int i = 0; i < 600; ++i) {
       const double mu = i % 20 == 0 ? 1.0 : 1.0 - 0.5 * unit(generator);
@@ -59,7 +59,7 @@ TEST(Interpolant, HoldsAtItsCorners) {
 TEST(Interpolant, GivesThreeByThreeAtOnce) {
   std::mt19937 generator(13);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (Visibility visibility : brdf::visibilities) {
     const Interpolant interpolant(visibility);
     for (int i = 0; i < 600; ++i) {
       const double step = i % 3 == 0 ? 0.1 : 1e-6;
@@ -93,7 +93,7 @@ TEST(Interpolant, GivesEveryThreadTheSame) {
 }
 
 TEST(Curve, IsTheInterpolantAtOneRoughness) {
-  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (Visibility visibility : brdf::visibilities) {
     const Interpolant interpolant(visibility);
     for (double r : {0.0, 0.002, 0.05, 0.1, 0.37, 0.4966, 0.8, 1.0}) {
       const Curve curve = interpolant.at_roughness(r);

@@ -15,11 +15,6 @@ namespace {
 // The table serves 32-bit floats: E below 1e-10 is 0 to every use of it.
 constexpr double negligible_drop_in_table = 30;
 
-// Lagrange weights of the nodes 0, 1, 2, 3 at t in [0, 3].
-std::array<double, 4> cubic_weights(double t) {
-  return {-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2, t * (t - 1) * (t - 2) / 6};
-}
-
 // sheen_roughness of a row: the root of density (1 - r) - ln r = v by Newton's method on ln r, which is monotone and convex.
 double roughness_of(double v) {
   double y = -v;

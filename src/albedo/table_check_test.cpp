@@ -16,8 +16,6 @@ namespace {
 
 using image::Image;
 
-constexpr Visibility all[] = {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined};
-
 const AlbedoSource& source() {
   static const AlbedoSource shared;
   return shared;
@@ -97,7 +95,7 @@ TableCheck expect(const Image& image, const TableReading& expected, double error
 }
 
 TEST(TableCheck, NamesVisibilityAndAxis) {
-  for (Visibility visibility : all) {
+  for (Visibility visibility : brdf::visibilities) {
     TableReading reading;
     reading.visibility = visibility;
     expect(centred(visibility, 32, 32), reading, 1e-5);
@@ -171,7 +169,7 @@ TEST(TableCheck, KnowsRowsThatAreOneTexelOff) {
 TEST(TableCheck, KnowsTablesOfAnySize) {
   const std::pair<int, int> sizes[] = {{8, 8}, {9, 31}, {17, 12}, {256, 16}, {300, 128}};
   for (const auto& [width, height] : sizes) {
-    for (Visibility visibility : all) {
+    for (Visibility visibility : brdf::visibilities) {
       TableReading reading;
       reading.visibility = visibility;
       expect(centred(visibility, width, height), reading, 1e-5);
@@ -180,7 +178,7 @@ TEST(TableCheck, KnowsTablesOfAnySize) {
 }
 
 TEST(TableCheck, KnowsRoundedClampedAndNoisyTables) {
-  for (Visibility visibility : all) {
+  for (Visibility visibility : brdf::visibilities) {
     TableReading reading;
     reading.visibility = visibility;
     const Image exact = centred(visibility, 64, 64);

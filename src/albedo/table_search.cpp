@@ -11,6 +11,8 @@
 namespace sheen::albedo {
 namespace {
 
+using brdf::square;
+
 constexpr int max_row_shift = 8;
 constexpr std::size_t orientations_kept = 3;  // of eight: a shift of many rows may make the true one second best
 constexpr std::size_t families_kept = 12;     // of visibility, form, axis and orientation
@@ -23,10 +25,6 @@ constexpr int coarse_side = 24;               // of the first sample
 struct SquaredErrors {
   double plain, clamped;
 };
-
-double square(double x) {
-  return x * x;
-}
 
 SquaredErrors squared_errors(const TableReading& reading, const TablePlane& plane, const TableSample::Texel& texel,
                              const AlbedoSource& source) {
@@ -74,7 +72,7 @@ std::vector<ScoredReading> best_of_each(const std::vector<ScoredReading>& sorted
 std::vector<TableReading> unshifted_readings(const std::vector<TableForm>& forms) {
   std::vector<TableReading> readings;
   for (int orientation = 0; orientation < 8; ++orientation) {
-    for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+    for (Visibility visibility : brdf::visibilities) {
       for (TableForm form : forms) {
         TableReading reading;
         reading.visibility = visibility;

@@ -16,7 +16,7 @@ namespace {
 TEST(Table, ReadsWithinItsErrorForEveryCosineAndRoughness) {
   std::mt19937 generator(13);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (Visibility visibility : brdf::visibilities) {
     const Table table = build_table(visibility);
     ASSERT_EQ(table.values.size(), static_cast<std::size_t>(Table::width * Table::height));
     for (float value : table.values) {
@@ -35,7 +35,7 @@ TEST(Table, ReadsWithinItsErrorForEveryCosineAndRoughness) {
 
 // lookup_error() stands on these.
 TEST(Table, HasNoSteepSteps) {
-  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (Visibility visibility : brdf::visibilities) {
     const Table table = build_table(visibility);
     const auto at = [&table](int column, int row) { return table.values[static_cast<std::size_t>(row * Table::width + column)]; };
     for (double r = 1; r > Table::min_roughness; r *= 0.99) {

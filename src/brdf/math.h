@@ -63,6 +63,11 @@ Real inversesqrt(const Real& x) {
   return Real(1) / sqrt(x);
 }
 
+template <class Real>
+Real square(const Real& x) {
+  return x * x;
+}
+
 inline constexpr double pi = 3.14159265358979323846;
 
 /// A linear colour, or a factor a colour channel.

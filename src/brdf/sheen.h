@@ -7,6 +7,7 @@ namespace sheen::brdf {
 
 /// Which visibility term the sheen lobe has: the specification's own, its named alternative, or the Enterprise PBR refinement.
 enum class Visibility { Charlie, Ashikhmin, Refined };
+inline constexpr Visibility visibilities[] = {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined};
 
 /// The sheen lobe of one material point, with what does not depend on the light found once.
 template <class Real>

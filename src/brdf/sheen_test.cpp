@@ -65,14 +65,14 @@ TEST(SheenLobe, CharlieMeetsThePrintedCodeWhereThatIsWellConditioned) {
 }
 
 TEST(SheenLobe, IsReciprocal) {
-  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (Visibility visibility : visibilities) {
     const double forth = lobe(visibility, 0.4, 0.3, 0.8, 0.7) / 0.8, back = lobe(visibility, 0.4, 0.8, 0.3, 0.7) / 0.3;
     EXPECT_NEAR(forth, back, 1e-14 * forth);
   }
 }
 
 TEST(SheenLobe, IsFiniteWhereTheLightGrazes) {
-  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (Visibility visibility : visibilities) {
     const double value = lobe(visibility, 0.5, 0.4, 0.0, 0.3);
     EXPECT_TRUE(std::isfinite(value));
     EXPECT_GE(value, 0);
@@ -80,7 +80,7 @@ TEST(SheenLobe, IsFiniteWhereTheLightGrazes) {
 }
 
 TEST(SheenLobe, VanishesAtItsDefaultRoughness) {
-  for (Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (Visibility visibility : visibilities) {
     EXPECT_EQ(lobe(visibility, 0.0, 0.5, 0.6, 0.5), 0) << "the printed code gives NaN here";
     EXPECT_EQ(lobe(visibility, 1e-200, 0.5, 0.6, 0.5), 0) << "alpha_g underflows";
   }

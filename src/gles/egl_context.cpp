@@ -10,7 +10,7 @@
 namespace sheen::gles {
 namespace {
 
-constexpr const char* advice = "\n  install it: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri";
+constexpr const char* egl_advice = "\n  install it: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri";
 
 /// Whether a space-separated list holds a word.
 bool lists(const char* list, const char* word) {
@@ -210,7 +210,7 @@ std::unique_ptr<Context> create_egl_context(const std::vector<std::string>& libr
   try {
     return std::make_unique<EglContext>(library_names);
   } catch (const Unavailable& why) {
-    throw Unavailable(why.what() + std::string(advice));
+    throw Unavailable(why.what() + std::string(egl_advice));
   }
 }
 

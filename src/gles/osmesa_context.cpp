@@ -20,7 +20,7 @@ constexpr int osmesa_major = 0x36;
 constexpr int osmesa_minor = 0x37;
 constexpr int osmesa_rgba = 0x1908;  // GL_RGBA
 
-constexpr const char* advice = "\n  install it: apt-get install libosmesa6";
+constexpr const char* osmesa_advice = "\n  install it: apt-get install libosmesa6";
 
 class OsMesaContext final : public Context {
  public:
@@ -96,7 +96,7 @@ std::unique_ptr<Context> create_osmesa_context(const std::vector<std::string>& l
   try {
     return std::make_unique<OsMesaContext>(library_names);
   } catch (const Unavailable& why) {
-    throw Unavailable(why.what() + std::string(advice));
+    throw Unavailable(why.what() + std::string(osmesa_advice));
   }
 }
 

@@ -22,8 +22,6 @@ namespace {
 using Vector = Vec3<Bound>;
 using Color = brdf::Rgb<Bound>;
 
-constexpr double epsilon = number::epsilon<number::Highp>;
-
 Bound bound(const Varying& v) {
   return std::isfinite(v.radius) ? Bound::at_sample(v.value, v.shift_x, v.shift_y, 1.0, v.radius) : Bound::unbounded(v.value);
 }

@@ -19,10 +19,6 @@ namespace {
 // Pixels a side of a tile: enough surfaces to fill batches, few enough that the last tiles still share out over the threads.
 constexpr int tile_size = 16;
 
-glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
-  return {c.r, c.g, c.b};
-}
-
 // A bound of the float that is stored: by its rounding wider, itself rounded up, and finite. At least the least normal number, below which
 // a driver may flush what it draws (GLSL ES 3.00.6, section 4.5.1), and our own processor the value and the bound that are stored.
 float stored_bound(double bound, double value) {

@@ -10,7 +10,7 @@
 namespace sheen::golden {
 namespace {
 
-constexpr int size = 32;
+constexpr int image_size = 32;
 
 /// A square tilted away from the camera, so that textures shrink more along one axis than the other.
 scene::Scene tilted_cloth() {
@@ -30,15 +30,15 @@ scene::TextureInfo add_noise(scene::Scene& s, unsigned seed, int low, int high, 
 /// picks, at random, among those allowed.
 template <class Vary>
 void hold_against_bound(const scene::Scene& s, const Vary& vary) {
-  const Settings settings = test::settings_for(size, size, true);
+  const Settings settings = test::settings_for(image_size, image_size, true);
   const image::Image golden = render(s, settings);
   const Frame frame(s, settings);
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   Seen seen;
   int held = 0;
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
+  for (int y = 0; y < image_size; ++y) {
+    for (int x = 0; x < image_size; ++x) {
       const Ray ray = frame.rays.through(x + 0.5, y + 0.5);
       frame.tracer.trace(ray, false, seen);
       if (!seen.nearest) {
@@ -60,7 +60,7 @@ void hold_against_bound(const scene::Scene& s, const Vary& vary) {
       }
     }
   }
-  EXPECT_GT(held, size * size / 3);
+  EXPECT_GT(held, image_size * image_size / 3);
 }
 
 constexpr std::size_t base_color_slot = 0, normal_slot = 2, sheen_color_slot = 6, clearcoat_normal_slot = 10;  // SurfaceReader's order

@@ -5,16 +5,16 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "golden/bound.h"
 #include "golden/surface_reader.h"
 
 namespace sheen::golden {
 
 namespace {
 
-constexpr double largest_angle = 0.01;  // between the normals of two neighbours
-constexpr double epsilon = 0x1p-23;
-constexpr std::size_t here = 4, right = 5, below = 7;  // of the 3 x 3 pixels
-constexpr int most_halvings = 10;                      // of what lies between two corners: half a turn needs 9, if the map keeps its length
+constexpr double largest_angle = 0.01;                            // between the normals of two neighbours
+constexpr std::size_t centre = 4, right_of_it = 5, below_it = 7;  // of the 3 x 3 pixels
+constexpr int most_halvings = 10;  // of what lies between two corners: half a turn needs 9, if the map keeps its length
 
 // Both ends and multiples of `spacing`.
 std::vector<double> spaced(const LodInterval& range, double spacing) {
@@ -81,9 +81,9 @@ SurfaceReader::Neighbourhood SurfaceReader::neighbourhood(const Hit& hit, const 
     for (int column = 0; column < 3; ++column) {
       const auto i = static_cast<std::size_t>(3 * row + column);
       bool beyond = false;
-      out.weights.at(i) = i == here ? hit.weights : weights_beside(hit, ray, column - 1, row - 1, beyond);
+      out.weights.at(i) = i == centre ? hit.weights : weights_beside(hit, ray, column - 1, row - 1, beyond);
       out.beyond = out.beyond || beyond;
-      out.ideal_beyond = out.ideal_beyond || (beyond && (i == right || i == below));
+      out.ideal_beyond = out.ideal_beyond || (beyond && (i == right_of_it || i == below_it));
       const glm::dvec3 change = glm::abs(out.weights.at(i) - hit.weights);
       out.stretch = std::max(out.stretch, 2.0 * step_ * (change.x + change.y + change.z));
     }
@@ -99,7 +99,7 @@ double SurfaceReader::level(const Slot& slot, const Hit& hit, const Neighbourhoo
     return coarsest_level;
   }
   const auto texels = [&](std::size_t i) { return texcoord(slot, hit, beside.weights.at(i)) * slot.texture->size(); };
-  return ideal_lod(texels(here), texels(right), texels(below));
+  return ideal_lod(texels(centre), texels(right_of_it), texels(below_it));
 }
 
 // The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes. Wider by what a shader that takes

@@ -6,12 +6,11 @@
 
 #include <glm/common.hpp>
 
-#include "number/precision.h"
+#include "golden/bound.h"
 
 namespace sheen::golden {
 namespace {
 
-constexpr double epsilon = number::epsilon<number::Highp>;
 /// Of a filter whose weights are exact, relative to the largest texel. 20 for a texel that the shader decodes from its sRGB code:
 /// x = (code + 0.055) / 1.055 3.5, magnified 2.4 times by x^2.4, of whose factor x^0.4 log2 costs 0.4 ln 2 times 8 (4 ulp of a value up to
 /// 4), the exponent's product ln 2, exp2 3 + 2 * 1.4, and two products. And for each of three interpolations, x (1 - a) + y a, 1 for 1 - a,

@@ -13,14 +13,6 @@
 #include "golden/uniform_light.h"
 
 namespace sheen::golden {
-namespace {
-
-glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
-  return {c.r, c.g, c.b};
-}
-
-}  // namespace
-
 Tile::Tile(const Frame& frame, const PixelBound* bound) : frame_(frame), bound_(bound) {
   if (bound != nullptr) {
     bounded_.emplace(*bound);

@@ -5,8 +5,8 @@
 
 #include <glm/common.hpp>
 
+#include "golden/bound.h"
 #include "golden/window_triangle.h"
-#include "number/precision.h"
 
 namespace sheen::golden {
 namespace {
@@ -65,7 +65,6 @@ void Interpolation::add_corners(const Geometry& geometry, const RayGenerator& ra
 // largest term, and the quotient 2.5: 13.5, of f / w where that is largest; a corner that clipping makes adds 3 of f. An implementation may
 // as well walk along the plane of f / w from the window's corner: four roundings of what the plane spans there.
 Varying Interpolation::operator()(const std::array<double, 3>& f, double rounding) const {
-  constexpr double epsilon = number::epsilon<number::Highp>;
   const glm::dvec3 at(f[0], f[1], f[2]);
   const double largest = std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
   Varying v;

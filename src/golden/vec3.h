@@ -26,6 +26,11 @@ Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// A colour as glm has it.
+inline glm::dvec3 dvec3(const brdf::Rgb<double>& c) {
+  return {c.r, c.g, c.b};
+}
+
 /// The same point with every lane equal.
 template <class Real>
 Vec3<Real> broadcast(const glm::dvec3& v) {

@@ -6,12 +6,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "number/precision.h"
+#include "golden/bound.h"
 
 namespace sheen::golden {
 namespace {
-
-constexpr double epsilon = number::epsilon<number::Highp>;
 
 glm::dmat3 absolute(const glm::dmat3& m) {
   return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};

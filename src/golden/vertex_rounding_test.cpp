@@ -13,7 +13,7 @@
 namespace sheen::golden {
 namespace {
 
-constexpr int size = 160;
+constexpr int window_size = 160;
 
 /// A triangle whose corner lies 100 m from its mesh's origin and 0.3 m before the camera.
 scene::Scene far_corner() {
@@ -39,18 +39,18 @@ glm::dvec2 by_floats(const scene::Scene& s, const glm::mat4& clip_from_local, st
   }
   const float x = clip.x / clip.w;
   const float y = clip.y / clip.w;
-  return {0.5F * size * x + 0.5F * size, 0.5F * size * y + 0.5F * size};
+  return {0.5F * window_size * x + 0.5F * window_size, 0.5F * window_size * y + 0.5F * window_size};
 }
 
 TEST(VertexRounding, HoldsWhereFloatsPutASample) {
   const scene::Scene s = far_corner();
   const Geometry geometry(s);
-  const RayGenerator rays(s.cameras[0], size, size);
+  const RayGenerator rays(s.cameras[0], window_size, window_size);
   const glm::dmat4 exact_matrix = scene::clip_from_camera(s.cameras[0], 1.0) * scene::camera_from_world(s.cameras[0]);
   const glm::mat4 matrix(exact_matrix);
   double farthest = 0.0;
-  for (double x = 20.5; x < size; x += 3.0) {
-    for (double y = 20.5; y < size; y += 3.0) {
+  for (double x = 20.5; x < window_size; x += 3.0) {
+    for (double y = 20.5; y < window_size; y += 3.0) {
       const std::optional<Hit> hit = geometry.meet(0, rays.through(x, y));
       if (!hit || hit->smallest_weight() < 0.0) {
         continue;
@@ -58,7 +58,7 @@ TEST(VertexRounding, HoldsWhereFloatsPutASample) {
       glm::dvec2 moved(0.0);
       for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec4 clip = exact_matrix * glm::dvec4(glm::dvec3(s.primitives[0].positions[i]), 1.0);
-        const glm::dvec2 exact = 0.5 * size * glm::dvec2(clip) / clip.w + 0.5 * size;
+        const glm::dvec2 exact = 0.5 * window_size * glm::dvec2(clip) / clip.w + 0.5 * window_size;
         // Its share of the window's point, where weights count by 1 / w.
         moved += hit->weights[static_cast<int>(i)] * clip.w / hit->t * (by_floats(s, matrix, i) - exact);
       }
@@ -73,9 +73,9 @@ TEST(VertexRounding, HoldsWhereFloatsPutASample) {
 TEST(VertexRounding, IsSmallWhereNothingCancels) {
   const scene::Scene s = test::scene_with(test::square(1.0), {}, test::camera_at(4.0), {});
   const Geometry geometry(s);
-  const RayGenerator rays(s.cameras[0], size, size);
+  const RayGenerator rays(s.cameras[0], window_size, window_size);
   const Hit hit = geometry.meet(0, rays.through(70.5, 60.5)).value();
-  EXPECT_LT(VertexRounding(geometry, rays, hit.triangle).in_window(rays, hit), 16.0 * size * 0x1p-23);
+  EXPECT_LT(VertexRounding(geometry, rays, hit.triangle).in_window(rays, hit), 16.0 * window_size * 0x1p-23);
 }
 
 TEST(VertexRounding, KnowsThatAFarMeshIsDrawnAboutItsMiddle) {
@@ -86,7 +86,7 @@ TEST(VertexRounding, KnowsThatAFarMeshIsDrawnAboutItsMiddle) {
   scene::Scene s = test::scene_with(far, {}, test::camera_at(4.0), {});
   s.cameras[0].world_from_camera = glm::translate(glm::dmat4(1.0), glm::dvec3(4096.0, 0.0, 4.0));
   const Geometry geometry(s);
-  const RayGenerator rays(s.cameras[0], size, size);
+  const RayGenerator rays(s.cameras[0], window_size, window_size);
   for (const glm::dvec3& m : position_magnitudes(geometry, rays, 0)) {
     EXPECT_LT(m.x, 2.0);
     EXPECT_NEAR(m.z, 4.0, 1e-9);

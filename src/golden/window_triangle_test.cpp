@@ -12,7 +12,7 @@
 namespace sheen::golden {
 namespace {
 
-constexpr int size = 16;
+constexpr int grid_size = 16;
 
 /// A triangle as a driver has it: its corners in the window, each moved, and what it finds at a place there.
 struct Moved {
@@ -73,7 +73,7 @@ class MovedTriangles : public testing::TestWithParam<bool> {
 };
 
 TEST_P(MovedTriangles, ShadeACoveredPlaceWithWeightsOfThePartAroundIt) {
-  const Settings settings = test::settings_for(size, size, true);
+  const Settings settings = test::settings_for(grid_size, grid_size, true);
   int covered = 0;
   int turned = 0;
   for (int i = 0; i < 400; ++i) {
@@ -117,7 +117,7 @@ TEST_P(MovedTriangles, ShadeACoveredPlaceWithWeightsOfThePartAroundIt) {
 }
 
 TEST_P(MovedTriangles, AreAmongThePixelsNearMissesWhereTheyComeToCoverIt) {
-  const Settings settings = test::settings_for(size, size, true);
+  const Settings settings = test::settings_for(grid_size, grid_size, true);
   const double reach = displacement(settings);
   int come = 0;
   for (int i = 0; i < 400; ++i) {
@@ -127,8 +127,8 @@ TEST_P(MovedTriangles, AreAmongThePixelsNearMissesWhereTheyComeToCoverIt) {
     for (int k = 0; k < 24; ++k) {
       const Moved exact = moved(frame, 0.0);
       const Moved driver = moved(frame, reach);
-      for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
+      for (int y = 0; y < grid_size; ++y) {
+        for (int x = 0; x < grid_size; ++x) {
           const glm::dvec2 place(x + 0.5, y + 0.5);
           if (driver.covers(place) && !exact.covers(place)) {
             ++come;
@@ -152,7 +152,7 @@ TEST(WindowTriangle, IsCutAtTheClipPlanes) {
   scene::Scene s = test::scene_with(p, {}, test::camera_at(4.0), {});
   s.cameras[0].znear = 0.5;
   const Geometry geometry(s);
-  const RayGenerator rays(s.cameras[0], size, size);
+  const RayGenerator rays(s.cameras[0], grid_size, grid_size);
   const std::vector<WindowPoint> polygon = window_polygon(geometry, rays, 0);
   ASSERT_EQ(polygon.size(), 4U);
   double nearest = 4.0;
@@ -162,16 +162,16 @@ TEST(WindowTriangle, IsCutAtTheClipPlanes) {
   }
   EXPECT_DOUBLE_EQ(nearest, 0.5);
   s.cameras[0].zfar = 1.0;
-  EXPECT_EQ(window_polygon(geometry, RayGenerator(s.cameras[0], size, size), 0).size(), 4U) << "its far corners are cut instead";
+  EXPECT_EQ(window_polygon(geometry, RayGenerator(s.cameras[0], grid_size, grid_size), 0).size(), 4U) << "its far corners are cut instead";
   s.cameras[0].znear = 3.0;
   s.cameras[0].zfar = 5.0;
-  EXPECT_TRUE(window_polygon(geometry, RayGenerator(s.cameras[0], size, size), 0).empty());
+  EXPECT_TRUE(window_polygon(geometry, RayGenerator(s.cameras[0], grid_size, grid_size), 0).empty());
 }
 
 TEST(WindowTriangle, OfItsSizeDoesNotTurnOver) {
   const scene::Scene s = test::scene_with(test::square(0.9), {}, test::orthographic_at(4.0, 1.0), {});
   const Geometry geometry(s);
-  const RayGenerator rays(s.cameras[0], size, size);
+  const RayGenerator rays(s.cameras[0], grid_size, grid_size);
   const std::vector<WindowPoint> polygon = window_polygon(geometry, rays, 0);
   EXPECT_FALSE(may_cover_turned_over(polygon, {8.5, 8.5}, 1.0 / 32));
   EXPECT_FALSE(may_cover_turned_over(polygon, polygon[0].window, 1.0 / 32)) << "not even at a corner";

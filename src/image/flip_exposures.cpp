@@ -17,7 +17,7 @@ constexpr double k4 = pre_exposure * 0.59;
 constexpr double k5 = 0.14;
 
 /// The tone mapped value at which the darkest and brightest exposure aim: Andersson et al. 2021, section 3.2, t = 0.85.
-constexpr double target = 0.85;
+constexpr double aimed_at = 0.85;
 
 /// The x that the curve maps to `t`: the positive root of (k0 - t k3) x^2 + (k1 - t k4) x - t k5 = 0.
 double inverse_tone_map(double t) {
@@ -68,8 +68,8 @@ Exposures hdr_exposures(const LinearRgb& reference, const std::vector<std::uint8
     middle = median(luminances);
   }
   Exposures exposures;
-  exposures.start = std::log2(inverse_tone_map(target) / brightest);
-  exposures.stop = std::log2(inverse_tone_map(target) / middle);
+  exposures.start = std::log2(inverse_tone_map(aimed_at) / brightest);
+  exposures.stop = std::log2(inverse_tone_map(aimed_at) / middle);
   exposures.count = static_cast<int>(std::max(2.0, std::ceil(exposures.stop - exposures.start)));
   return exposures;
 }

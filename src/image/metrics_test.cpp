@@ -14,8 +14,8 @@ namespace sheen::image {
 namespace {
 
 using Names = std::vector<std::string>;
-const Names rgba = {"R", "G", "B", "A"};
-const Names rgb = {"R", "G", "B"};
+const Names rgba_names = {"R", "G", "B", "A"};
+const Names rgb_names = {"R", "G", "B"};
 
 Image filled(int width, int height, const Names& names, const std::vector<float>& pixel) {
   Image image(width, height, names);
@@ -26,7 +26,7 @@ Image filled(int width, int height, const Names& names, const std::vector<float>
 }
 
 TEST(Compare, EqualImagesAreInfinitelyGoodAndHaveNoError) {
-  const Image image = filled(9, 4, rgba, {0.2f, 3.0f, 0.0f, 1.0f});
+  const Image image = filled(9, 4, rgba_names, {0.2f, 3.0f, 0.0f, 1.0f});
   const Comparison c = compare(image, image);
   EXPECT_EQ(c.max_abs, 0);
   EXPECT_EQ(c.p99_rel, 0);
@@ -36,7 +36,7 @@ TEST(Compare, EqualImagesAreInfinitelyGoodAndHaveNoError) {
 }
 
 TEST(Compare, ErrorsAreOverEveryChannelAndRelativeToTheReferenceFlooredAtAThousandth) {
-  const Image reference = filled(2, 1, rgb, {2.0f, 1e-4f, 0.5f});
+  const Image reference = filled(2, 1, rgb_names, {2.0f, 1e-4f, 0.5f});
   Image candidate = reference;
   candidate.at(1, 0, 0) = 1.0f;     // absolute 1, relative 0.5
   candidate.at(1, 0, 1) = 1.1e-3f;  // absolute 1e-3, relative 1 by the floor
@@ -51,7 +51,7 @@ TEST(Compare, ErrorsAreOverEveryChannelAndRelativeToTheReferenceFlooredAtAThousa
 }
 
 TEST(Compare, ANegativeReferenceCountsByItsMagnitude) {
-  const Comparison c = compare(filled(1, 1, rgb, {-1, 0, 0}), filled(1, 1, rgb, {-2, 0, 0}));
+  const Comparison c = compare(filled(1, 1, rgb_names, {-1, 0, 0}), filled(1, 1, rgb_names, {-2, 0, 0}));
   EXPECT_DOUBLE_EQ(c.max_rel, 0.5);
 }
 
@@ -74,11 +74,11 @@ TEST(Compare, TheNinetyNinthPercentileIsTheNearestRank) {
 }
 
 TEST(Compare, AMissingObjectDoesNotPass) {
-  Image reference = filled(8, 8, rgba, {0, 0, 0, 0});
+  Image reference = filled(8, 8, rgba_names, {0, 0, 0, 0});
   for (int c = 0; c < 4; ++c) {
     reference.at(3, 3, c) = 1;
   }
-  const Comparison c = compare(filled(8, 8, rgba, {0, 0, 0, 0}), reference);
+  const Comparison c = compare(filled(8, 8, rgba_names, {0, 0, 0, 0}), reference);
   EXPECT_EQ(c.compared_pixels, 1);
   EXPECT_EQ(c.max_abs, 1);
   EXPECT_EQ(c.mean_abs, 1) << "not diluted by the background";
@@ -86,30 +86,30 @@ TEST(Compare, AMissingObjectDoesNotPass) {
 }
 
 TEST(Compare, AnObjectThatShouldNotBeThereDoesNotPassEither) {
-  Image candidate = filled(8, 8, rgba, {0, 0, 0, 0});
+  Image candidate = filled(8, 8, rgba_names, {0, 0, 0, 0});
   for (int c = 0; c < 4; ++c) {
     candidate.at(3, 3, c) = 1;
   }
-  EXPECT_EQ(compare(candidate, filled(8, 8, rgba, {0, 0, 0, 0})).max_abs, 1);
+  EXPECT_EQ(compare(candidate, filled(8, 8, rgba_names, {0, 0, 0, 0})).max_abs, 1);
 }
 
 TEST(Compare, WrongCoverageIsAnErrorToo) {
-  EXPECT_NEAR(compare(filled(1, 1, rgba, {1, 1, 1, 0.5f}), filled(1, 1, rgba, {1, 1, 1, 1})).max_abs, 0.5, 1e-12);
+  EXPECT_NEAR(compare(filled(1, 1, rgba_names, {1, 1, 1, 0.5f}), filled(1, 1, rgba_names, {1, 1, 1, 1})).max_abs, 0.5, 1e-12);
 }
 
 TEST(Compare, AnImageWithoutAlphaCoversWhatTheOtherCovers) {
-  Image reference = filled(4, 1, rgba, {0, 0, 0, 0});
+  Image reference = filled(4, 1, rgba_names, {0, 0, 0, 0});
   reference.at(2, 0, 0) = 1;
   reference.at(2, 0, 3) = 1;
-  const Comparison c = compare(filled(4, 1, rgb, {0.5f, 0, 0}), reference);
+  const Comparison c = compare(filled(4, 1, rgb_names, {0.5f, 0, 0}), reference);
   EXPECT_EQ(c.compared_pixels, 1);
   EXPECT_EQ(c.max_abs, 0.5) << "the missing alpha is not an error";
-  EXPECT_EQ(compare(filled(4, 1, rgb, {0.5f, 0, 0}), filled(4, 1, rgb, {0.5f, 0, 0})).compared_pixels, 4);
+  EXPECT_EQ(compare(filled(4, 1, rgb_names, {0.5f, 0, 0}), filled(4, 1, rgb_names, {0.5f, 0, 0})).compared_pixels, 4);
 }
 
 TEST(Compare, NanAndInfinityAreCountedAndInNoOtherFigure) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  Image reference = filled(4, 1, rgba, {1, 1, 1, 1});
+  Image reference = filled(4, 1, rgba_names, {1, 1, 1, 1});
   Image candidate = reference;
   candidate.at(0, 0, 1) = nan;
   candidate.at(1, 0, 3) = nan;
@@ -122,13 +122,13 @@ TEST(Compare, NanAndInfinityAreCountedAndInNoOtherFigure) {
 }
 
 TEST(Compare, ANanOutsideTheCoveredPixelsIsStillCounted) {
-  Image candidate = filled(2, 1, rgba, {0, 0, 0, 0});
+  Image candidate = filled(2, 1, rgba_names, {0, 0, 0, 0});
   candidate.at(1, 0, 0) = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(compare(candidate, filled(2, 1, rgba, {0, 0, 0, 0})).nonfinite_pixels, 1);
+  EXPECT_EQ(compare(candidate, filled(2, 1, rgba_names, {0, 0, 0, 0})).nonfinite_pixels, 1);
 }
 
 TEST(Compare, WithoutCoveredPixelsEveryFigureIsZero) {
-  const Image empty = filled(3, 3, rgba, {0, 0, 0, 0});
+  const Image empty = filled(3, 3, rgba_names, {0, 0, 0, 0});
   const Comparison c = compare(empty, empty);
   EXPECT_EQ(c.compared_pixels, 0);
   EXPECT_EQ(c.max_rel, 0);
@@ -147,20 +147,20 @@ TEST(Compare, BoundsAndOtherChannelsAreNotThePicture) {
 
 TEST(Compare, UnequalSizesOrNothingInCommonIsAnError) {
   try {
-    compare(Image(2, 1, rgb), Image(1, 2, rgb));
+    compare(Image(2, 1, rgb_names), Image(1, 2, rgb_names));
     ADD_FAILURE() << "sizes differ";
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("2 x 1"), std::string::npos) << e.what();
   }
   EXPECT_THROW(compare(Image(1, 1, {"Z"}), Image(1, 1, {"Z"})), Error);
-  Image broken(2, 2, rgb);
+  Image broken(2, 2, rgb_names);
   broken.data.pop_back();
-  EXPECT_THROW(compare(broken, Image(2, 2, rgb)), Error);
+  EXPECT_THROW(compare(broken, Image(2, 2, rgb_names)), Error);
 }
 
 TEST(Compare, FlipLeftOutIsZeroAndChangesNothingElse) {
-  const Image reference = filled(2, 2, rgb, {0.5f, 0.5f, 0.5f});
-  const Image candidate = filled(2, 2, rgb, {0.9f, 0.5f, 0.1f});
+  const Image reference = filled(2, 2, rgb_names, {0.5f, 0.5f, 0.5f});
+  const Image candidate = filled(2, 2, rgb_names, {0.9f, 0.5f, 0.1f});
   const Comparison with = compare(candidate, reference);
   const Comparison without = compare(candidate, reference, Flip::Skip);
   EXPECT_GT(with.flip, 0);

@@ -67,7 +67,7 @@ TEST_F(Materials, AlbedoScalingTakesFromTheBaseWhatTheSheenReflects) {
 }
 
 TEST_F(Materials, EveryVisibilityReadsItsOwnTable) {
-  for (const Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (const Visibility visibility : brdf::visibilities) {
     const double e = albedo::directional_albedo(visibility, 0.4, 0.6);
     const double lobe = middle(posed(sheen_over(0.0, 0.6), 0.4, 0.9, 1.0), with(visibility, AlbedoScaling::Full));
     const double both = middle(posed(sheen_over(1.0, 0.6), 0.4, 0.9, 1.0), with(visibility, AlbedoScaling::Full));
@@ -100,7 +100,7 @@ TEST_F(Materials, TheClampedScaleNeverTurnsTheBaseNegativeAndTheLiteralOneDoes) 
 }
 
 TEST_F(Materials, SheenOfRoughnessZeroVanishesAndLeavesTheBaseWhole) {
-  for (const Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (const Visibility visibility : brdf::visibilities) {
     EXPECT_NEAR(middle(posed(sheen_over(1.0, 0.0), 0.5, 0.6, 0.5), with(visibility, AlbedoScaling::Full)), 0.6 / pi, 1e-6);
   }
 }

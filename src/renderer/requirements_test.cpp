@@ -90,7 +90,7 @@ std::vector<Settings> every_setting() {
   std::vector<Settings> all;
   using albedo::AlbedoScaling;
   using albedo::Visibility;
-  for (const Visibility visibility : {Visibility::Charlie, Visibility::Ashikhmin, Visibility::Refined}) {
+  for (const Visibility visibility : brdf::visibilities) {
     for (const AlbedoScaling scaling : {AlbedoScaling::Full, AlbedoScaling::View, AlbedoScaling::None, AlbedoScaling::Literal}) {
       for (const Formulation formulation : {Formulation::Literal, Formulation::Stable}) {
         for (const AlbedoSource source : {AlbedoSource::Table, AlbedoSource::Fit}) {

@@ -18,6 +18,9 @@ namespace sheen::scene::test {
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 
+/// How errors name the material of triangle().
+inline constexpr const char* cloth = "materials[0] 'cloth'";
+
 /// A folder of its own, removed at the end.
 class TemporaryFolder {
  public:

@@ -3,8 +3,6 @@
 namespace sheen::scene::test {
 namespace {
 
-constexpr const char* cloth = "materials[0] 'cloth'";
-
 Asset with_extension(const char* name, const json& value) {
   Asset asset = triangle();
   asset.material()["extensions"][name] = value;

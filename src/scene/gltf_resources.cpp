@@ -13,20 +13,20 @@ namespace sheen::scene {
 namespace {
 
 using nlohmann::json;
-using Bytes = std::vector<std::uint8_t>;
+using FileBytes = std::vector<std::uint8_t>;
 
 // What tinygltf may open: names made here, each with the bytes read here.
-using Files = std::map<std::string, Bytes>;
+using Files = std::map<std::string, FileBytes>;
 
 tinygltf::FsCallbacks only(Files& files) {
   tinygltf::FsCallbacks callbacks{};
   callbacks.FileExists = [](const std::string& name, void* user) { return static_cast<Files*>(user)->contains(name); };
   callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
-  callbacks.ReadWholeFile = [](Bytes* out, std::string*, const std::string& name, void* user) {
+  callbacks.ReadWholeFile = [](FileBytes* out, std::string*, const std::string& name, void* user) {
     *out = std::move(static_cast<Files*>(user)->at(name));
     return true;
   };
-  callbacks.WriteWholeFile = [](std::string*, const std::string&, const Bytes&, void*) { return false; };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const FileBytes&, void*) { return false; };
   callbacks.user_data = &files;
   return callbacks;
 }
@@ -46,7 +46,7 @@ json carried_uri(const Element& element, const std::string& uri, const std::stri
     size = base64_size(payload);
     return "data:application/octet-stream;base64," + std::string(payload);
   }
-  Bytes bytes = read_bytes(folder / path_of_uri(element, uri), element.file(), element.name());
+  FileBytes bytes = read_bytes(folder / path_of_uri(element, uri), element.file(), element.name());
   size = bytes.size();
   files[name] = std::move(bytes);
   return name;
@@ -65,7 +65,7 @@ json carried_buffer(const Element& element, std::size_t index, const Container& 
   if (element.has("uri")) {
     result["uri"] = carried_uri(element, uri, name, folder, files, size);
   } else if (index == 0 && container.has_binary) {
-    files[name] = Bytes(container.binary.begin(), container.binary.end());
+    files[name] = FileBytes(container.binary.begin(), container.binary.end());
     size = container.binary.size();
     result["uri"] = name;
   } else {
@@ -78,7 +78,7 @@ json carried_buffer(const Element& element, std::size_t index, const Container& 
   return result;
 }
 
-BufferView read_view(const Element& element, const std::vector<Bytes>& buffers) {
+BufferView read_view(const Element& element, const std::vector<FileBytes>& buffers) {
   BufferView view;
   view.buffer = element.required_index("buffer", buffers.size(), "buffers");
   const std::uint64_t offset = element.count("byteOffset", 0);

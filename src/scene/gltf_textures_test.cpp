@@ -8,8 +8,6 @@
 namespace sheen::scene::test {
 namespace {
 
-constexpr const char* cloth = "materials[0] 'cloth'";
-
 // The triangle with a 1 x 1 base colour texture.
 Asset textured(const Bytes& image = png(1, 1, 8, {10, 20, 30, 40}), const char* mime = "image/png") {
   Asset asset = triangle();

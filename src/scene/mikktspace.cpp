@@ -43,7 +43,7 @@ struct Mesh {
 };
 
 // A triangle whose three positions differ.
-struct Triangle {
+struct TangentTriangle {
   std::size_t first = 0;                                    // its first corner in the mesh
   std::array<std::uint32_t, 3> vertex{};                    // welded
   std::array<std::uint32_t, 3> neighbor{none, none, none};  // over the edge from corner i to the next
@@ -77,7 +77,7 @@ std::vector<std::uint32_t> weld(const Mesh& mesh) {
 
 // With d1, d2 the edges and (du, dv) their uv: dp/du = (d1 dv2 - d2 dv1) / det, dp/dv = (d2 du1 - d1 du2) / det (Mikkelsen 2008,
 // equations 18 and 19).
-void set_derivatives(const Mesh& mesh, Triangle& triangle) {
+void set_derivatives(const Mesh& mesh, TangentTriangle& triangle) {
   const glm::vec3* p = &mesh.positions[triangle.first];
   const glm::vec2* uv = &mesh.uvs[triangle.first];
   const glm::vec3 d1 = p[1] - p[0];
@@ -103,15 +103,15 @@ void set_derivatives(const Mesh& mesh, Triangle& triangle) {
   triangle.any = !(not_zero(u_length / std::abs(det)) && not_zero(v_length / std::abs(det)));
 }
 
-std::vector<Triangle> good_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertex) {
-  std::vector<Triangle> triangles;
+std::vector<TangentTriangle> good_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertex) {
+  std::vector<TangentTriangle> triangles;
   triangles.reserve(vertex.size() / 3);
   for (std::size_t i = 0; i < vertex.size(); i += 3) {
     const glm::vec3* p = &mesh.positions[i];
     if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) {
       continue;
     }
-    Triangle& triangle = triangles.emplace_back();
+    TangentTriangle& triangle = triangles.emplace_back();
     triangle.first = i;
     triangle.vertex = {vertex[i], vertex[i + 1], vertex[i + 2]};
     set_derivatives(mesh, triangle);
@@ -128,7 +128,7 @@ struct Edge {
 
 // Two triangles are neighbours when they run along an edge in opposite directions. Where more than two meet, the first that waits takes the
 // first that comes, in the triangles' order.
-void find_neighbors(std::vector<Triangle>& triangles) {
+void find_neighbors(std::vector<TangentTriangle>& triangles) {
   std::vector<Edge> edges;
   edges.reserve(triangles.size() * 3);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -170,7 +170,7 @@ struct Member {
 };
 
 // The group that starts at a corner, in the triangles' order.
-void collect_group(std::vector<Triangle>& triangles, std::uint32_t start, std::uint32_t corner, std::vector<Member>& members) {
+void collect_group(std::vector<TangentTriangle>& triangles, std::uint32_t start, std::uint32_t corner, std::vector<Member>& members) {
   const std::uint32_t vertex = triangles[start].vertex[corner];
   const bool preserving = triangles[start].preserving;
   members.clear();
@@ -178,7 +178,7 @@ void collect_group(std::vector<Triangle>& triangles, std::uint32_t start, std::u
   while (!pending.empty()) {
     const std::uint32_t t = pending.back();
     pending.pop_back();
-    Triangle& triangle = triangles[t];
+    TangentTriangle& triangle = triangles[t];
     const auto i = static_cast<std::size_t>(std::find(triangle.vertex.begin(), triangle.vertex.end(), vertex) - triangle.vertex.begin());
     if (triangle.grouped[i]) {
       continue;
@@ -201,9 +201,9 @@ void collect_group(std::vector<Triangle>& triangles, std::uint32_t start, std::u
   std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) { return a.triangle < b.triangle; });
 }
 
-void set_contributions(const Mesh& mesh, const std::vector<Triangle>& triangles, std::vector<Member>& members) {
+void set_contributions(const Mesh& mesh, const std::vector<TangentTriangle>& triangles, std::vector<Member>& members) {
   for (Member& member : members) {
-    const Triangle& triangle = triangles[member.triangle];
+    const TangentTriangle& triangle = triangles[member.triangle];
     const glm::vec3* p = &mesh.positions[triangle.first];
     const glm::vec3& normal = mesh.normals[triangle.first + member.corner];
     member.along_u = projected(triangle.along_u, normal);
@@ -251,22 +251,22 @@ glm::vec3 mean(const std::vector<Member>& members, const Joins& joined) {
   return finite ? tangent : glm::vec3(0.0f);
 }
 
-void write_group(const std::vector<Triangle>& triangles, const std::vector<Member>& members, std::vector<glm::vec4>& tangents) {
+void write_group(const std::vector<TangentTriangle>& triangles, const std::vector<Member>& members, std::vector<glm::vec4>& tangents) {
   const bool all_join = one_sided(members);
   const glm::vec3 of_all = mean(members, [](const Member&) { return true; });
   for (const Member& member : members) {
-    const Triangle& triangle = triangles[member.triangle];
+    const TangentTriangle& triangle = triangles[member.triangle];
     const glm::vec3 tangent = all_join ? of_all : mean(members, [&](const Member& other) { return joins(member, other); });
     tangents[triangle.first + member.corner] = glm::vec4(tangent, triangle.preserving ? -1.0f : 1.0f);
   }
 }
 
 // Corners of the triangles left out get the tangent of the first corner that is the same vertex.
-void copy_to_degenerate(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& vertex,
+void copy_to_degenerate(const std::vector<TangentTriangle>& triangles, const std::vector<std::uint32_t>& vertex,
                         std::vector<glm::vec4>& tangents) {
   std::vector<std::uint32_t> source(vertex.size(), none);
   std::vector<bool> good(vertex.size(), false);
-  for (const Triangle& triangle : triangles) {
+  for (const TangentTriangle& triangle : triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t corner = triangle.first + i;
       good[corner] = true;
@@ -291,7 +291,7 @@ std::vector<glm::vec4> mikktspace(std::span<const glm::vec3> positions, std::spa
   }
   const Mesh mesh{.positions = positions, .normals = normals, .uvs = uvs};
   const std::vector<std::uint32_t> vertex = weld(mesh);
-  std::vector<Triangle> triangles = good_triangles(mesh, vertex);
+  std::vector<TangentTriangle> triangles = good_triangles(mesh, vertex);
   find_neighbors(triangles);
   std::vector<glm::vec4> tangents(positions.size(), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
   std::vector<Member> members;
