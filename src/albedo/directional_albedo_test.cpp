@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "albedo/interpolant.h"
+#include "albedo/peak.h"
 #include "albedo/quadrature.h"
 #include "number/cpu.h"
 
@@ -85,6 +87,38 @@ TEST(DirectionalAlbedo, FallsWithTheCosineWhereOneLookupIsExact) {
       EXPECT_LE(a, ashikhmin * (1 + 1e-6)) << "Ashikhmin, n_dot_v " << mu << " sheen_roughness " << r;
       charlie = c;
       ashikhmin = a;
+    }
+  }
+}
+
+// What bounds of E over a range of cosines build on.
+TEST(DirectionalAlbedo, RisesToOnePeakAndFallsFromThere) {
+  for (const Visibility visibility : brdf::visibilities) {
+    const Interpolant interpolant(visibility);
+    for (const double r : {0.02, 0.07, 0.2, 0.45, 0.8, 1.0}) {
+      const auto e = [&](double mu) { return interpolant(mu, r); };
+      const Peak peak = peak_of(e, 16);
+      const Peak rough = peak_of(e, 8);
+      EXPECT_LE(rough.from, peak.to);
+      EXPECT_GE(rough.to, peak.from);
+      EXPECT_LE(peak.to, 1.1 * decreasing_from * (1 + 1e-12));
+      EXPECT_LE(peak.e, 1.001 * e(peak.from)) << "and no more than it needs";
+      EXPECT_LE(rough.e, 1.002 * peak.e);
+      double before = 0;
+      for (double mu = min_n_dot_v; mu <= 1; mu *= 1.003) {
+        const double here = e(mu);
+        if (mu < peak.from) {
+          EXPECT_GE(here, before * (1 - 1e-9)) << "n_dot_v " << mu << " sheen_roughness " << r;
+        } else if (mu > 1.003 * peak.to) {
+          EXPECT_LE(here, before * (1 + 1e-9)) << "n_dot_v " << mu << " sheen_roughness " << r;
+        }
+        const bool only_falls = rough.from <= min_n_dot_v * (1 + 1e-9);
+        if (!only_falls || mu >= rough.to) {
+          EXPECT_LE(here, rough.e);
+          EXPECT_LE(here, peak.e);
+        }
+        before = here;
+      }
     }
   }
 }

@@ -5,6 +5,7 @@
 #include "albedo/curve.h"
 #include "albedo/ggx_interpolant.h"
 #include "albedo/interpolant.h"
+#include "albedo/peak.h"
 #include "brdf/multiple_scattering.h"
 #include "number/lanes.h"
 
@@ -12,7 +13,11 @@ namespace sheen::golden {
 
 /// E at a material's sheen roughness and at both ends of what a shader may hold of it.
 struct AlbedoAround {
-  albedo::Curve lower, center, upper;
+  struct Curve {
+    albedo::Curve e;
+    albedo::Peak peak;
+  };
+  Curve lower, center, upper;
 };
 
 /// Where E comes from. Plain pointers, so that a batched translation unit instantiates no container.

@@ -25,6 +25,14 @@ auto OneAlbedo<Precision>::ggx_average(const albedo::GgxInterpolant& ggx, const 
 template struct OneAlbedo<number::Highp>;
 template struct OneAlbedo<number::Mediump>;
 
+AlbedoAround albedo_around(const albedo::Interpolant& albedo, const Bound& sheen_roughness) {
+  const auto at = [&albedo](double roughness) -> AlbedoAround::Curve {
+    const albedo::Curve curve = albedo.at_roughness(roughness);
+    return {curve, albedo::peak_of(curve, 16)};
+  };
+  return {at(sheen_roughness.range().lower), at(sheen_roughness.center()), at(sheen_roughness.range().upper)};
+}
+
 void bound_all_scalar(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
   for (std::size_t i = 0; i < job.count; ++i) {
     const Surface<Bound>& surface = job.surfaces[job.order[i]];

@@ -9,10 +9,6 @@
 
 namespace sheen::golden {
 
-/// E falls with its cosine from here up, for every visibility and roughness (KHR_materials_sheen leaves that unsaid;
-/// directional_albedo_test holds it).
-inline constexpr double decreasing_from = 0.008;
-
 /// AlbedoReader of number::Bounded, in a translation unit that every processor runs: what number::BoundedBatch asks of single lanes.
 template <class Precision>
 struct OneAlbedo {
@@ -24,6 +20,12 @@ struct OneAlbedo {
 extern template struct OneAlbedo<number::Highp>;
 extern template struct OneAlbedo<number::Mediump>;
 
+/// E about one roughness.
+AlbedoAround albedo_around(const albedo::Interpolant& albedo, const Bound& sheen_roughness);
+
+/// A range of cosines is wide from this share of its centre on: over it an albedo may bend one way and the other.
+inline constexpr double wide_cosines = 1.0 / 16;
+
 /// Surfaces in view space whose radiance is wanted on number::Bounded; all have the same layers.
 struct BoundJob {
   const Surface<Bound>* surfaces;
@@ -34,7 +36,7 @@ struct BoundJob {
   bool ranges_alone = false;  ///< how far the results reach will do, whatever moves them; see number::RangeBatch
 };
 
-/// Shades them into results at the same indices, four at a time where the processor can.
+/// Shades them into results at the same indices, eight at a time where the processor can.
 void bound_all(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results);
 
 /// The same, one at a time.

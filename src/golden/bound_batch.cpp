@@ -49,7 +49,7 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
 
   template <class Read>
   static B for_light(const B& e_v, const B& n_dot_l, const B& n_dot_v, const Read& read) {
-    const number::BatchMask smaller = (n_dot_v.lower() >= Batch(decreasing_from)) & (n_dot_l.lower() >= n_dot_v.upper()) &
+    const number::BatchMask smaller = (n_dot_v.lower() >= Batch(albedo::decreasing_from)) & (n_dot_l.lower() >= n_dot_v.upper()) &
                                       ~n_dot_v.is_unbounded() & ~n_dot_l.is_unbounded();
     if (xsimd::all(smaller)) {
       return e_v;
@@ -81,23 +81,35 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
   /// AlbedoReader<One>::read, in lanes that are bounded.
   static void read(const AlbedoAround& around, const B& cosine, const B& roughness, B& e) {
     const Batch c = cosine.center();
-    const Batch value = around.center(c);
+    const Batch value = around.center.e(c);
     const Batch width = cosine.upper() - cosine.lower();
-    const Batch low = around.center(cosine.lower());
-    const Batch high = around.center(cosine.upper());
-    const Batch slope = select(width > Batch(0.0), (high - low) / width, Batch(0.0));
+    const Batch low = around.center.e(cosine.lower());
+    const Batch high = around.center.e(cosine.upper());
+    const number::BatchMask wide = width > Batch(wide_cosines) * c;
+    const Batch slope = select((width > Batch(0.0)) & ~wide, (high - low) / width, Batch(0.0));
     Batch lowest = xsimd::min(value, xsimd::min(low, high));
     Batch highest = xsimd::max(value, xsimd::max(low, high));
     const auto left = [&](const Batch& there, const Batch& at) { return xsimd::abs(there - value - slope * (at - c)); };
     Batch remainder = xsimd::max(left(low, cosine.lower()), left(high, cosine.upper()));
     if (!xsimd::all(roughness.is_exact())) {
-      for (const albedo::Curve* curve : {&around.lower, &around.upper}) {
-        const Batch at_lower = (*curve)(cosine.lower());
-        const Batch at_upper = (*curve)(cosine.upper());
+      for (const AlbedoAround::Curve* curve : {&around.lower, &around.upper}) {
+        const Batch at_lower = curve->e(cosine.lower());
+        const Batch at_upper = curve->e(cosine.upper());
         lowest = xsimd::min(lowest, xsimd::min(at_lower, at_upper));
         highest = xsimd::max(highest, xsimd::max(at_lower, at_upper));
         remainder = xsimd::max(remainder, xsimd::max(left(at_lower, cosine.lower()), left(at_upper, cosine.upper())));
       }
+    }
+    const number::BatchMask may_turn = cosine.lower() < Batch(albedo::decreasing_from);
+    if (xsimd::any(wide | may_turn)) {
+      for (const AlbedoAround::Curve* curve : {&around.lower, &around.center, &around.upper}) {
+        const number::BatchMask turns =
+            wide & may_turn & (cosine.lower() < Batch(curve->peak.to)) & (Batch(curve->peak.from) < cosine.upper());
+        highest = select(turns, xsimd::max(highest, Batch(curve->peak.e)), highest);
+      }
+      highest = select(may_turn & ~wide, highest + remainder, highest);
+      lowest = select(may_turn & ~wide, xsimd::max(Batch(0.0), lowest - remainder), lowest);
+      remainder = select(wide, xsimd::max(highest - value, value - lowest), remainder);
     }
     const Batch off = albedo::lookup_error(highest, c, roughness.center());
     const Batch radius = xsimd::abs(slope) * cosine.radius() + remainder;
@@ -118,7 +130,7 @@ struct AlbedoReaderOfHalves {
   }
   template <class Read>
   static Eight for_light(const Eight& e_v, const Eight& n_dot_l, const Eight& n_dot_v, const Read& read) {
-    const number::FloatMask falls = n_dot_v.lower() >= number::FloatBatch(static_cast<float>(decreasing_from));
+    const number::FloatMask falls = n_dot_v.lower() >= number::FloatBatch(static_cast<float>(albedo::decreasing_from));
     const number::FloatMask smaller = falls & (n_dot_l.lower() >= n_dot_v.upper());
     if (xsimd::all(smaller)) {
       return e_v;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "golden/bound_all.h"
+
 namespace sheen::golden {
 namespace {
 
@@ -29,9 +31,7 @@ PixelBound::PixelBound(const Frame& frame)
     const SurfaceReader::Material& m = frame.reader.material(static_cast<int>(i));
     std::optional<AlbedoAround>& around = albedos_.emplace_back();
     if (m.layers.sheen && !m.sheen_roughness.texture && frame.model.model != brdf::Model::Draft2019) {
-      const Bound roughness(m.source->sheen.roughness_factor);
-      const auto at = [&](double r) { return frame.albedo->at_roughness(r); };
-      around.emplace(AlbedoAround{at(roughness.range().lower), at(roughness.center()), at(roughness.range().upper)});
+      around.emplace(albedo_around(*frame.albedo, Bound(m.source->sheen.roughness_factor)));
     }
   }
 }

@@ -109,8 +109,10 @@ class AffineBatch {
     // The quotient's own rounding comes into both shifts.
     const FloatBatch radius_b = xsimd::fma(b.spread_, FloatBatch(4 * unit), b.radius_);
     const FloatBatch rest = xsimd::fma(xsimd::abs(quotient), radius_b, a.radius_) + (xsimd::abs(shift_x) + xsimd::abs(shift_y)) * b.spread_;
+    // Among subnormal numbers the dividend's terms lose more than their share, which a small divisor makes great.
+    const FloatBatch subnormal(0x1p-146F);
     AffineBatch out;
-    out.round(quotient, shift_x, shift_y, rest / smallest, division_ulps);
+    out.round(quotient, shift_x, shift_y, (rest + subnormal) / smallest, division_ulps);
     out.lose(~((smallest >= FloatBatch(static_cast<float>(Highp::smallest_divisor))) &
                (size + b.spread_ <= FloatBatch(static_cast<float>(Highp::largest_divisor)))));
     return out;
@@ -234,13 +236,17 @@ class AffineBatch {
     const auto keep = [this](const AffineBatch& x, const AffineBatch& by) {
       const FloatBatch size = xsimd::abs(by.center_);
       const FloatBatch smallest = (xsimd::abs(x.center_) - x.spread_) * size;
-      const FloatMask stays_normal =
-          (smallest >= FloatBatch(static_cast<float>(smallest_normal<Highp>))) | (size >= FloatBatch(1.0F)) | (size == FloatBatch(0.0F));
+      const FloatMask grows = (size >= FloatBatch(1.0F)) | (size == FloatBatch(0.0F));
+      const FloatMask stays_normal = grows | (smallest >= FloatBatch(static_cast<float>(2 * smallest_normal<Highp>)));
       const FloatBits fraction = xsimd::bitwise_cast<FloatBits>(size) & FloatBits((std::uint32_t{1} << 23) - 1);
       const FloatMask is_power = xsimd::bitwise_cast<FloatBatch>(fraction) == FloatBatch(0.0F);
       const FloatMask exact = by.is_exact() & is_power & stays_normal & ~is_lost();
-      radius_ = xsimd::select(exact, x.radius_ * size, radius_);
-      spread_ = xsimd::select(exact, x.spread_ * size, spread_);
+      // What remains of a radius may be subnormal.
+      const auto scaled = [&](const FloatBatch& r) {
+        return r * size + xsimd::select(grows | (r == FloatBatch(0.0F)), FloatBatch(0.0F), FloatBatch(0x1p-148F));
+      };
+      radius_ = xsimd::select(exact, scaled(x.radius_), radius_);
+      spread_ = xsimd::select(exact, scaled(x.spread_), spread_);
     };
     keep(a, b);
     keep(b, a);
@@ -248,6 +254,7 @@ class AffineBatch {
 
   /// Of a constant, which stands for either neighbour where the format does not hold it.
   static float constant_radius(double value) {
+    if (!(value <= largest_finite<Highp> && -value <= largest_finite<Highp>)) return infinity;
     return is_representable<Highp>(value) ? 0.0F : static_cast<float>((1 + 0x1p-20) * ulp<Highp>(value) + smallest_normal<Highp>);
   }
 
@@ -275,7 +282,9 @@ class AffineBatch {
     const FloatBatch more =
         xsimd::select((beyond <= chosen.radius_) | (a.is_exact() & b.is_exact()), FloatBatch(0.0F), beyond - chosen.radius_);
     chosen.radius_ = (chosen.radius_ + more) * FloatBatch(1 + 4 * unit);
-    chosen.spread_ = (chosen.spread_ + more) * FloatBatch(1 + 4 * unit);
+    const FloatBatch of_center =
+        xsimd::select(more == FloatBatch(0.0F), FloatBatch(0.0F), FloatBatch(2 * unit) * xsimd::abs(chosen.center_));
+    chosen.spread_ = (chosen.spread_ + more + of_center) * FloatBatch(1 + 4 * unit);
     return chosen;
   }
 

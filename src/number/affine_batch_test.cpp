@@ -78,8 +78,8 @@ TEST(AffineBatch, EnclosesWhatBoundsDoAndHardlyMore) {
           const double u = sign(random);
           const double v = sign(random);
           const double exact = operation.exact(held(x, u, v, sign(random)), held(y, u, v, sign(random)));
-          const bool may_round = operation.rounds && !x.is_exact() && !y.is_exact();
-          const double off = std::abs(exact - held(got, u, v, 0)) + (may_round ? (1 - 1e-6) * ulp<Highp>(exact) : 0);
+          const double ulps = x.is_exact() || y.is_exact() ? 0 : (1 - 1e-6) * operation.ulps;
+          const double off = std::abs(exact - held(got, u, v, 0)) + ulps * ulp<Highp>(exact);
           EXPECT_LE(off, got.radius() + room) << x.center() << ' ' << y.center();
         }
       }

@@ -19,7 +19,7 @@ template <class Eight>
 struct Operation {
   const char* name;
   bool may_lose;  ///< of operands that are close to their centres too
-  bool rounds;    ///< once, correctly
+  double ulps;    ///< that a shader may be off, of two numbers that are not exact: 1 of what is rounded correctly, 0 of what is not checked
   std::function<Eight(const Eight&, const Eight&)> eight;
   std::function<BoundedBatch<Highp>(const BoundedBatch<Highp>&, const BoundedBatch<Highp>&)> bounds;
   std::function<double(double, double)> exact;
@@ -29,7 +29,10 @@ template <class Eight>
 std::vector<Operation<Eight>> operations() {
   const auto operation = [](const char* name, bool may_lose, auto f, auto exact) {
     const std::string_view n = name;
-    return Operation<Eight>{name, may_lose, n == "a + b" || n == "a - b" || n == "a b" || n == "a a", f, f, exact};
+    const bool is_rounded = n == "a + b" || n == "a - b" || n == "a b" || n == "a a";
+    // GLSL ES 3.00.6, 4.5.1; sqrt is the reciprocal of an inversesqrt.
+    const double ulps = is_rounded ? 1 : n == "a / b" ? 2.5 : n == "inversesqrt" ? 2 : n == "sqrt" ? 4.4 : 0;
+    return Operation<Eight>{name, may_lose, ulps, f, f, exact};
   };
   const auto constant = [](const auto& like, double value) { return std::remove_cvref_t<decltype(like)>(value); };
   return {

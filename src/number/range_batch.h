@@ -24,7 +24,7 @@ class RangeBatch {
   explicit RangeBatch(double value) : lower_(static_cast<float>(value)), upper_(lower_) {
     if (!is_representable<Highp>(value)) *this = rounded(lower_, upper_, correct_rounding, Sign::Kept);
   }
-  /// In each lane what lies between the two; lost where these are not numbers.
+  /// In each lane what lies between the two; lost where neither is a number, which is so of both or of none.
   RangeBatch(const FloatBatch& lower, const FloatBatch& upper) : lower_(lower), upper_(upper) {}
   /// Of the first four lanes, and the last.
   RangeBatch(const Bounds& first, const Bounds& last)
