@@ -22,12 +22,14 @@ clang-format --dry-run -Werror "${files[@]}"
 echo "clang-format: ${#files[@]} files are as they should be"
 
 # Each source, or the one that CMake wrote to include it.
-mapfile -t units < <(python3 - $build "$PWD" "${files[@]}" <<'PYTHON'
+listed=$(python3 - $build "$PWD" "${files[@]}" <<'PYTHON'
 import json
+import os
 import re
 import sys
 
-build, root, files = sys.argv[1], sys.argv[2], sys.argv[3:]
+build, root = sys.argv[1:3]
+files = [os.path.relpath(file, root) for file in sys.argv[3:]]
 unit_of = {}
 for command in json.load(open(f"{build}/compile_commands.json")):
     unit = command["file"]
@@ -37,8 +39,8 @@ for command in json.load(open(f"{build}/compile_commands.json")):
 
 units = []
 for file in files:
-    # All of them: tests are held to the compiler's warnings alone; GoogleTest's macros make most of what clang-tidy would say and of the
-    # time it takes.
+    # Without names tests are left out, and held to the compiler's warnings alone: GoogleTest's macros make most of what clang-tidy would
+    # say and of the time it takes.
     if not file.endswith(".cpp") or build.endswith("release") and file.endswith("_test.cpp"):
         continue
     # A source that the build does not know is an error too: nothing would check it.
@@ -48,5 +50,6 @@ for file in files:
 print(*dict.fromkeys(units), sep="\n")
 PYTHON
 )
+mapfile -t units < <(printf '%s' "${listed:+$listed$'\n'}")
 [ ${#units[@]} -eq 0 ] || printf '%s\0' "${units[@]}" | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p $build --quiet --extra-arg=-Wno-unknown-warning-option
 echo "clang-tidy: ${#units[@]} units without a warning"

@@ -25,8 +25,8 @@ namespace {
 
 using brdf::square;
 
-constexpr double as_a_mirror = 1e-8;  // below, the lobe differs from a mirror's by less than 1e-7 at n_dot_v = 1e-4
-constexpr double cut = 12;            // 1/cosh^2 is 1.5e-10 there
+constexpr double alpha_of_a_mirror = 1e-8;  // below, the lobe differs from a mirror's by less than 1e-7 at n_dot_v = 1e-4
+constexpr double cut = 12;                  // 1/cosh^2 is 1.5e-10 there
 
 struct Sum {
   double all = 0;   ///< F = 1
@@ -59,7 +59,7 @@ Sum azimuth(const Rule& rule, double alpha, double cosines, double cos2_half_del
 SplitSum ggx_split_sum(double n_dot_v, double roughness) {
   const double mu = std::clamp(n_dot_v, 1e-7, 1.0);
   const double alpha = square(std::clamp(roughness, 0.0, 1.0));
-  if (!(alpha > as_a_mirror)) {
+  if (!(alpha > alpha_of_a_mirror)) {
     const double bias = square(square(1 - mu)) * (1 - mu);
     return {1 - bias, bias};
   }

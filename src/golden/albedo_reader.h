@@ -27,6 +27,9 @@ struct SheenAlbedo {
   const AlbedoAround* around = nullptr;              ///< at the one roughness of all surfaces, for number types that have ranges
 };
 
+/// A range of cosines that is wider than this share of its centre is wide: over it an albedo may bend one way and the other.
+inline constexpr double wide_cosines = 1.0 / 16;
+
 /// How a number type reads what is tabulated: lane by lane. A type that carries more than its value brings its own.
 template <class Real>
 struct AlbedoReader {

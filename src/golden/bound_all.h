@@ -23,9 +23,6 @@ extern template struct OneAlbedo<number::Mediump>;
 /// E about one roughness.
 AlbedoAround albedo_around(const albedo::Interpolant& albedo, const Bound& sheen_roughness);
 
-/// A range of cosines is wide from this share of its centre on: over it an albedo may bend one way and the other.
-inline constexpr double wide_cosines = 1.0 / 16;
-
 /// Surfaces in view space whose radiance is wanted on number::Bounded; all have the same layers.
 struct BoundJob {
   const Surface<Bound>* surfaces;

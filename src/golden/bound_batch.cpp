@@ -91,10 +91,12 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     Batch highest = xsimd::max(value, xsimd::max(low, high));
     const auto left = [&](const Batch& there, const Batch& at) { return xsimd::abs(there - value - slope * (at - c)); };
     Batch remainder = xsimd::max(left(low, cosine.lower()), left(high, cosine.upper()));
+    const Batch bend = remainder;
     if (!xsimd::all(roughness.is_exact())) {
       for (const AlbedoAround::Curve* curve : {&around.lower, &around.upper}) {
         const Batch at_lower = curve->e(cosine.lower());
         const Batch at_upper = curve->e(cosine.upper());
+        remainder = xsimd::max(remainder, left(curve->e(c), c));
         lowest = xsimd::min(lowest, xsimd::min(at_lower, at_upper));
         highest = xsimd::max(highest, xsimd::max(at_lower, at_upper));
         remainder = xsimd::max(remainder, xsimd::max(left(at_lower, cosine.lower()), left(at_upper, cosine.upper())));
@@ -107,11 +109,17 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
             wide & may_turn & (cosine.lower() < Batch(curve->peak.to)) & (Batch(curve->peak.from) < cosine.upper());
         highest = select(turns, xsimd::max(highest, Batch(curve->peak.e)), highest);
       }
-      highest = select(may_turn & ~wide, highest + remainder, highest);
-      lowest = select(may_turn & ~wide, xsimd::max(Batch(0.0), lowest - remainder), lowest);
+      highest = select(may_turn & ~wide, highest + bend, highest);
+      lowest = select(may_turn & ~wide, xsimd::max(Batch(0.0), lowest - bend), lowest);
       remainder = select(wide, xsimd::max(highest - value, value - lowest), remainder);
     }
-    const Batch off = albedo::lookup_error(highest, c, roughness.center());
+    const auto error = [&](const Batch& n_dot_v) { return albedo::lookup_error(highest, n_dot_v, roughness.center()); };
+    const Batch shares =
+        width / xsimd::max(c, Batch(albedo::min_n_dot_v)) + (roughness.upper() / xsimd::max(roughness.lower(), Batch(1e-8)) - Batch(1.0));
+    Batch off = error(c) * (Batch(1.0) + Batch(4.0) * select(wide, Batch(0.0), shares));
+    if (xsimd::any(wide)) {
+      off = select(wide, xsimd::max(off, xsimd::max(error(cosine.lower()), error(cosine.upper()))), off);
+    }
     const Batch radius = xsimd::abs(slope) * cosine.radius() + remainder;
     e.round({value, slope * cosine.shift_x(), slope * cosine.shift_y(), radius, lowest, highest}, B::Error::absolute(0, off), true);
   }

@@ -15,7 +15,8 @@ namespace sheen::golden {
 /// Tabulated albedos on number::Bounded: value and slope at the centre, all that the arguments' ranges reach, and what a shader that reads
 /// a table in highp is off. Over a narrow range of cosines an albedo bends one way at the most, so that what is left of the slope is found
 /// at the ends, each with each of the other's and with its centre, and it exceeds what is found there by no more than that; of a wide one,
-/// see wide_cosines, no slope is made use of, and where it turns in between is looked for.
+/// see wide_cosines, no slope is made use of, and where it turns in between is looked for. Over a wide range of roughness it may turn too
+/// (E of Charlie is least at a half).
 template <class Precision>
 struct AlbedoReader<number::Bounded<Precision>> {
   using B = number::Bounded<Precision>;
@@ -25,19 +26,20 @@ struct AlbedoReader<number::Bounded<Precision>> {
       const auto around = [&albedo](End end) -> const AlbedoAround::Curve& {
         return end == End::Center ? albedo.around->center : end == End::Lower ? albedo.around->lower : albedo.around->upper;
       };
-      return sheen([&](double c, End end) { return around(end).e(c); }, [&](End end) { return around(end).peak; }, cosine, sheen_roughness);
+      return sheen([&](double c, End end) { return around(end).e(c); }, *albedo.interpolant, [&](End end) { return around(end).peak; },
+                   cosine, sheen_roughness);
     }
     const auto e = at_ends(*albedo.interpolant, sheen_roughness);
     albedo::Peak of_center{};
     const auto peak = [&](End end) {
-      if (end == End::Center || sheen_roughness.range().upper > widest_of_one_peak * sheen_roughness.range().lower) {
+      if (end == End::Center || is_wide_roughness(sheen_roughness)) {
         return of_center = albedo::peak_of([&](double c) { return e(c, end); }, 8);
       }
       // Within hundredths of the centre's, of whose place a tenth is uncertain.
       return albedo::Peak::around(of_center.from, of_center.to, e(std::sqrt(of_center.from * of_center.to), end));
     };
     if (!cosine.is_bounded() || !sheen_roughness.is_bounded() || sheen_roughness.is_exact()) {
-      return sheen(e, peak, cosine, sheen_roughness);
+      return sheen(e, *albedo.interpolant, peak, cosine, sheen_roughness);
     }
     const auto three = [](const B& x) { return albedo::Interpolant::Triple{x.range().lower, x.center(), x.range().upper}; };
     const auto grid = albedo.interpolant->grid(three(cosine), three(sheen_roughness));
@@ -45,7 +47,7 @@ struct AlbedoReader<number::Bounded<Precision>> {
       const std::size_t column = c == cosine.center() ? 1 : c == cosine.range().lower ? 0 : 2;
       return grid.at(roughness == End::Center ? 1 : roughness == End::Lower ? 0 : 2).at(column);
     };
-    return sheen(of_grid, peak, cosine, sheen_roughness);
+    return sheen(of_grid, *albedo.interpolant, peak, cosine, sheen_roughness);
   }
 
   template <class Read>
@@ -64,7 +66,8 @@ struct AlbedoReader<number::Bounded<Precision>> {
 
  private:
   enum class End { Lower, Center, Upper };
-  static constexpr double widest_of_one_peak = 1.05;  // ranges of roughness, the upper end over the lower
+  /// Of a range whose ends differ by more than hundredths.
+  static bool is_wide_roughness(const B& roughness) { return roughness.range().upper > 1.05 * roughness.range().lower; }
 
   /// f(x, y) with y given as the end of a range.
   template <class Function>
@@ -76,8 +79,9 @@ struct AlbedoReader<number::Bounded<Precision>> {
 
   /// @param e     of a cosine, at an end of the range of roughness
   /// @param peak  where that is largest, asked of the centre first
-  template <class E, class PeakAt>
-  static B sheen(const E& e, const PeakAt& peak, const B& cosine, const B& roughness) {
+  /// @param across  E of a cosine at any roughness
+  template <class E, class Across, class PeakAt>
+  static B sheen(const E& e, const Across& across, const PeakAt& peak, const B& cosine, const B& roughness) {
     const auto turn = [&](End end, const auto& include) {
       if (cosine.range().lower < albedo::decreasing_from) {
         const albedo::Peak p = peak(end);
@@ -87,13 +91,14 @@ struct AlbedoReader<number::Bounded<Precision>> {
       }
     };
     const auto error = [](double value, double c, double r) { return albedo::lookup_error(value, c, r); };
-    return read(e, turn, cosine.range().lower < albedo::decreasing_from, error, cosine, roughness);
+    return read(e, across, turn, cosine.range().lower < albedo::decreasing_from, error, cosine, roughness);
   }
 
   /// @param turn      includes what f may be between the ends of a wide range where it turns
   /// @param may_turn  whether it may do so in a narrow one
-  template <class Function, class Turn, class Error>
-  static B read(const Function& f, const Turn& turn, bool may_turn, const Error& error, const B& x, const B& y) {
+  /// @param across    f at any roughness
+  template <class Function, class Across, class Turn, class Error>
+  static B read(const Function& f, const Across& across, const Turn& turn, bool may_turn, const Error& error, const B& x, const B& y) {
     if (!x.is_bounded() || !y.is_bounded()) {
       return B::unbounded(0.0);  // their centres need not be numbers
     }
@@ -113,6 +118,7 @@ struct AlbedoReader<number::Bounded<Precision>> {
       remainder = std::max(remainder, std::abs(there - value - slope * (cosine - x.center())));
     };
     const auto include_ends = [&](End end) {
+      include(x.center(), f(x.center(), end));
       include(x.range().lower, f(x.range().lower, end));
       if (width > 0) {
         include(x.range().upper, f(x.range().upper, end));
@@ -125,9 +131,25 @@ struct AlbedoReader<number::Bounded<Precision>> {
       include(x.range().lower, low);
       include(x.range().upper, high);
     }
+    const double bend = remainder;
     if (!y.is_exact()) {
       include_ends(End::Lower);
       include_ends(End::Upper);
+      // What lies between three places of a parabola is beyond them by half of this at the most.
+      const double across_bend = 0.25 * std::abs(f(x.center(), End::Lower) + f(x.center(), End::Upper) - 2.0 * value);
+      highest += across_bend;
+      lowest = std::max(0.0, lowest - across_bend);
+      remainder += across_bend;
+      if (is_wide_roughness(y)) {
+        const double lower = std::max(y.range().lower, 1e-3);
+        const double upper = std::max(y.range().upper, lower);
+        // Steps of a seventh of a roughness, while they are not too many.
+        const int steps = std::min(2 + static_cast<int>(7 * std::log(upper / lower)), 40);
+        for (const double c : {x.range().lower, x.center(), x.range().upper}) {
+          include_between([&](double place) { return across(c, between(lower, upper, place)); }, steps,
+                          [&](double there) { include(c, there); });
+        }
+      }
     }
     if (wide) {
       turn(End::Center, reach);
@@ -137,29 +159,44 @@ struct AlbedoReader<number::Bounded<Precision>> {
       }
       remainder = std::max(highest - value, value - lowest);
     } else if (may_turn) {
-      highest += remainder;
-      lowest = std::max(0.0, lowest - remainder);
+      highest += bend;
+      lowest = std::max(0.0, lowest - bend);
     }
-    const double off = error(highest, x.center(), y.center());
+    // It changes by less than four times the share that its arguments do.
+    const double shares =
+        width / std::max(x.center(), albedo::min_n_dot_v) + (y.is_exact() ? 0 : y.range().upper / std::max(y.range().lower, 1e-8) - 1);
+    double off = error(highest, x.center(), y.center()) * (1 + 4 * shares);
+    if (wide || is_wide_roughness(y)) {
+      off = 0;
+      for (const double c : {x.range().lower, x.center(), x.range().upper}) {
+        for (const double r : {y.range().lower, y.center(), y.range().upper}) {
+          off = std::max(off, error(highest, c, r));
+        }
+      }
+    }
     return B::rounded({value, slope * x.shift_x(), slope * x.shift_y(), std::abs(slope) * x.radius() + remainder, {lowest, highest}},
                       B::Error::absolute(0, off), true);
   }
 
-  /// What a function of cosines reaches between two, that turns no more often than once an octave: at a few of them, and beyond by what
-  /// neighbours differ.
+  /// What a function of places from 0 to 1 reaches between them: what it has at the ends of some steps, and beyond that twice as far as a
+  /// parabola through three neighbours goes.
+  /// @param steps  at least 2
   template <class Function, class Include>
-  static void include_between(const Function& f, const number::Range& cosines, const Include& include) {
-    constexpr int steps = 32;
-    const double from = std::log(std::max(cosines.lower, albedo::min_n_dot_v));
-    const double step = (std::log(std::max(cosines.upper, albedo::min_n_dot_v)) - from) / steps;
-    double before = f(std::exp(from));
-    for (int i = 1; i <= steps; ++i) {
-      const double here = f(std::exp(from + i * step));
-      include(std::max(here, before) + std::abs(here - before));
-      include(std::max(0.0, std::min(here, before) - std::abs(here - before)));
-      before = here;
+  static void include_between(const Function& f, int steps, const Include& include) {
+    double first = f(0.0);
+    double middle = f(1.0 / steps);
+    for (int i = 2; i <= steps; ++i) {
+      const double last = f(static_cast<double>(i) / steps);
+      const double bend = 0.25 * std::abs(first + last - 2.0 * middle);
+      include(std::max(first, std::max(middle, last)) + bend);
+      include(std::max(0.0, std::min(first, std::min(middle, last)) - bend));
+      first = middle;
+      middle = last;
     }
   }
+
+  /// Of the same ratio each. @param place  from 0 to 1
+  static double between(double lower, double upper, double place) { return lower * std::pow(upper / lower, place); }
 
   template <class Albedo>
   static brdf::LobeAlbedo<B> lobe(const Albedo& albedo, const B& cosine, const B& alpha) {
@@ -171,9 +208,11 @@ struct AlbedoReader<number::Bounded<Precision>> {
     const auto of = [&](const auto& f, const auto& error) {
       const auto at = at_ends(f, alpha);
       const auto turn = [&](End end, const auto& include) {
-        include_between([&](double c) { return at(c, end); }, cosine.range(), include);
+        const double lower = std::max(cosine.range().lower, albedo::min_n_dot_v);
+        const double upper = std::max(cosine.range().upper, lower);
+        include_between([&](double place) { return at(between(lower, upper, place), end); }, 32, include);
       };
-      return read(at, turn, true, error, cosine, alpha);
+      return read(at, f, turn, true, error, cosine, alpha);
     };
     return {of(loss, of_loss), of(bias, of_bias)};
   }

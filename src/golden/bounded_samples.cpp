@@ -132,8 +132,9 @@ Enclosed BoundedSamples::composed(std::size_t sample, std::size_t varied_layer, 
 // How far a sample may come from what it shows of the surface that a run is instead of.
 glm::dvec4 BoundedSamples::deviation_of(const Run& run, std::size_t sample, std::size_t layer) const {
   const Enclosed usual = composed(sample, layer, run.instead_of);
-  // Of a surface that the golden does not show, its own place within its bound is not known.
-  const glm::dvec4 open = run.instead_of == layers_[layer].surface ? glm::dvec4(0.0) : usual.deviation;
+  // What a second run starts from is one of the first's, whose place within its bound is not known.
+  const bool is_second = &run != &runs_[layers_[layer].first_run];
+  const glm::dvec4 open = is_second ? usual.deviation : glm::dvec4(0.0);
   glm::dvec4 farthest = usual.deviation;
   for (std::size_t surface = run.first; surface < run.last; ++surface) {
     const Enclosed there = composed(sample, layer, surface);

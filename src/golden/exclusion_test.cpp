@@ -107,7 +107,7 @@ void add_strip(scene::Primitive& p, double half_length, double from, double to, 
 constexpr double sliver_from = 0.4 / 512;
 constexpr double sliver_to = 0.7 / 512;
 const glm::vec4 black(0.0F, 0.0F, 0.0F, 1.0F);
-const glm::vec4 white_vertices(1.0F);
+const glm::vec4 vertex_white(1.0F);
 
 TEST(Exclusion, ASliverBetweenTheLooksIsASurfaceOfItsOwn) {
   scene::Scene s = plane(test::lambertian({0.5, 0.5, 0.5, 1.0}));
@@ -126,24 +126,24 @@ scene::Scene strips(const scene::Primitive& p) {
 
 TEST(Exclusion, AGapBetweenTheLooksMayShowWhatIsBehind) {
   scene::Primitive p;
-  add_strip(p, 40.0, -40.0, sliver_from, white_vertices);
-  add_strip(p, 40.0, sliver_to, 40.0, white_vertices);
+  add_strip(p, 40.0, -40.0, sliver_from, vertex_white);
+  add_strip(p, 40.0, sliver_to, 40.0, vertex_white);
   EXPECT_EQ(excluded(strips(p), 1.0F), 16) << "the pixels of a diagonal";
   p = {};
-  add_strip(p, 40.0, -40.0, sliver_from, white_vertices);
-  add_strip(p, 40.0, sliver_from, 40.0, white_vertices);
+  add_strip(p, 40.0, -40.0, sliver_from, vertex_white);
+  add_strip(p, 40.0, sliver_from, 40.0, vertex_white);
   EXPECT_EQ(excluded(strips(p), 1.0F), 0) << "both have both corners of the edge between them";
   p = {};
-  add_strip(p, 40.0, -40.0, sliver_from, white_vertices);
-  add_strip(p, 39.0, sliver_from, 40.0, white_vertices);
+  add_strip(p, 40.0, -40.0, sliver_from, vertex_white);
+  add_strip(p, 39.0, sliver_from, 40.0, vertex_white);
   EXPECT_EQ(excluded(strips(p), 1.0F), 16) << "a T-junction: corners that are moved by themselves";
 }
 
 TEST(Exclusion, ASliverOnTheEdgeOfWhatItLiesOnIsFoundWhicheverComesFirst) {
   // It covers nothing that is not covered, and its every point is on an edge, by the digits of weights.
   scene::Primitive sheet;
-  add_strip(sheet, 40.0, -40.0, sliver_from, white_vertices);
-  add_strip(sheet, 40.0, sliver_from, 40.0, white_vertices);
+  add_strip(sheet, 40.0, -40.0, sliver_from, vertex_white);
+  add_strip(sheet, 40.0, sliver_from, 40.0, vertex_white);
   scene::Primitive sliver;
   add_strip(sliver, 0.3, sliver_from - 1e-6, sliver_from, black);
   const scene::Material material = test::lambertian({0.5, 0.5, 0.5, 1.0});
@@ -156,7 +156,7 @@ TEST(Exclusion, ASliverOnTheEdgeOfWhatItLiesOnIsFoundWhicheverComesFirst) {
 
 TEST(Exclusion, ATriangleOfTwoCornersIsNothing) {
   scene::Primitive p;
-  add_strip(p, 40.0, -40.0, 40.0, white_vertices);
+  add_strip(p, 40.0, -40.0, 40.0, vertex_white);
   const auto vertex = static_cast<std::uint32_t>(p.positions.size());
   add_strip(p, 0.3, sliver_from, sliver_to, black);
   p.indices.resize(6);
@@ -179,9 +179,9 @@ TEST(Exclusion, ABlendedSampleOnASharedEdgeIsBlendedOnce) {
 
 TEST(Exclusion, ASliverThatContinuesASurfaceIsPartOfTheBound) {
   scene::Primitive p;
-  add_strip(p, 40.0, -40.0, sliver_from, white_vertices);
+  add_strip(p, 40.0, -40.0, sliver_from, vertex_white);
   add_strip(p, 40.0, sliver_from, sliver_to, black);
-  add_strip(p, 40.0, sliver_to, 40.0, white_vertices);
+  add_strip(p, 40.0, sliver_to, 40.0, vertex_white);
   const scene::Scene s = strips(p);
   const image::Image golden = render(s, test::settings_for(16, 16, true));
   EXPECT_EQ(golden.at(8, 7, golden.channel("excluded")), 0.0F);

@@ -1,0 +1,113 @@
+#include "golden/bounded_albedo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "albedo/interpolant.h"
+#include "number/bounded_functions.h"
+
+// E and the physical model's albedos over ranges of their arguments: all that they are in between lies in the bound.
+
+namespace sheen::golden {
+namespace {
+
+using Reader = AlbedoReader<Bound>;
+
+/// A range between `from` and 1, narrow or wide, small or large.
+Bound some_range(double from, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double center = from * std::pow(1 / from, unit(random));
+  const double reach = std::pow(10.0, -3.0 * unit(random));
+  const double lower = std::max(from, center * (1 - reach));
+  const double upper = std::min(1.0, center * (1 + 3 * reach));
+  return Bound::within(0.5 * (lower + upper), 0.5 * (upper - lower));
+}
+
+/// At a place of a range, from 0 to 1.
+double at(const Bound& x, double place) {
+  return x.range().lower + place * (x.range().upper - x.range().lower);
+}
+
+/// @param off  what a shader that reads it from a table may be off
+void expect_held(const Bound& bound, double exact, double off, const Bound& cosine, const Bound& roughness) {
+  const auto said = [&] {
+    return ::testing::Message() << cosine.range().lower << " to " << cosine.range().upper << ", roughness " << roughness.range().lower
+                                << " to " << roughness.range().upper;
+  };
+  const double least = std::max(exact - off, 0.0);
+  const double most = exact + off;
+  ASSERT_GE(least, bound.range().lower - 1e-12) << said();
+  ASSERT_LE(most, bound.range().upper + 1e-12) << said();
+  ASSERT_GE(least, bound.center() - bound.radius() - 1e-12) << said();
+  ASSERT_LE(most, bound.center() + bound.radius() + 1e-12) << said();
+}
+
+constexpr int places = 40;
+
+TEST(BoundedAlbedo, HoldsEOfAllCosinesAndRoughnesses) {
+  std::mt19937 random(5);
+  for (const brdf::Visibility visibility : brdf::visibilities) {
+    const albedo::Interpolant e(visibility);
+    SheenAlbedo albedo;
+    albedo.interpolant = &e;
+    for (int i = 0; i < 300 && !HasFailure(); ++i) {
+      const Bound cosine = some_range(albedo::min_n_dot_v, random);
+      const Bound roughness = some_range(0.02, random);
+      const Bound bound = Reader::sheen(albedo, cosine, roughness);
+      for (int c = 0; c <= places; ++c) {
+        for (int r = 0; r <= places; r += 4) {
+          const double n_dot_v = at(cosine, 1.0 * c / places);
+          const double sheen_roughness = at(roughness, 1.0 * r / places);
+          const double exact = e(n_dot_v, sheen_roughness);
+          expect_held(bound, exact, albedo::lookup_error(exact, n_dot_v, sheen_roughness), cosine, roughness);
+        }
+      }
+    }
+  }
+}
+
+TEST(BoundedAlbedo, HoldsEOfOneRoughnessAtAllCosines) {
+  std::mt19937 random(6);
+  for (const brdf::Visibility visibility : brdf::visibilities) {
+    const albedo::Interpolant e(visibility);
+    for (const double sheen_roughness : {0.05, 0.3, 0.5, 1.0}) {
+      const Bound roughness(sheen_roughness);
+      const AlbedoAround around = albedo_around(e, roughness);
+      SheenAlbedo albedo;
+      albedo.interpolant = &e;
+      albedo.around = &around;
+      for (int i = 0; i < 300 && !HasFailure(); ++i) {
+        const Bound cosine = some_range(albedo::min_n_dot_v, random);
+        const Bound bound = Reader::sheen(albedo, cosine, roughness);
+        for (int c = 0; c <= places; ++c) {
+          const double n_dot_v = at(cosine, 1.0 * c / places);
+          const double exact = e(n_dot_v, sheen_roughness);
+          expect_held(bound, exact, albedo::lookup_error(exact, n_dot_v, sheen_roughness), cosine, roughness);
+        }
+      }
+    }
+  }
+}
+
+TEST(BoundedAlbedo, HoldsThePhysicalModels) {
+  std::mt19937 random(7);
+  const albedo::GgxInterpolant ggx;
+  for (int i = 0; i < 300 && !HasFailure(); ++i) {
+    const Bound cosine = some_range(albedo::min_n_dot_v, random);
+    const Bound alpha = some_range(1e-3, random);
+    const brdf::LobeAlbedo<Bound> bound = Reader::ggx(ggx, cosine, alpha);
+    for (int c = 0; c <= places; ++c) {
+      for (int r = 0; r <= places; r += 4) {
+        const brdf::LobeAlbedo<double> exact = ggx(at(cosine, 1.0 * c / places), at(alpha, 1.0 * r / places));
+        expect_held(bound.loss, exact.loss, 0, cosine, alpha);
+        expect_held(bound.bias, exact.bias, 0, cosine, alpha);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sheen::golden
