@@ -3,28 +3,12 @@
 #include <cstddef>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
-#include "brdf/clearcoat.h"
-#include "brdf/physical_base.h"
-#include "brdf/sheen.h"
-#include "golden/albedo_reader.h"
-#include "golden/golden.h"
-#include "golden/lights.h"
-#include "golden/surface.h"
+#include "golden/layers.h"
 #include "number/lanes.h"
 
 namespace sheen::golden {
-
-/// What shading depends on besides the surface. Plain pointers, so that the batched translation unit instantiates no container.
-struct Lighting {
-  const PreparedLight* lights = nullptr;
-  std::size_t light_count = 0;
-  albedo::SheenModel sheen;
-  SheenAlbedo albedo;
-  TermFactors factors;
-  const DistantLights* distant = nullptr;       ///< of one surface, one a lane, instead of `lights`
-  const albedo::GgxInterpolant* ggx = nullptr;  ///< of the physical model alone, which it makes the base follow
-};
 
 /// Radiance of a surface, and what an approximation granted to a shader may change in it.
 template <class Real>
@@ -32,17 +16,6 @@ struct Shaded {
   brdf::Rgb<Real> radiance;
   brdf::Rgb<Real> lookup;  ///< error of reading E once, at min(N.V, N.L), instead of taking the larger of two
   Real mirrored;           ///< 1 where N.V <= 0 mirrored V, of either lobe's normal, else 0
-};
-
-/// Whether Shaded::lookup is wanted of a number type.
-template <class Real>
-inline constexpr bool finds_lookup_error = true;
-
-/// One light's part, as the shading found it; see LightTerms.
-template <class Real>
-struct LightPart {
-  Real n_dot_l, n_dot_h, d, v, e_l, scale, coat_lobe;
-  brdf::Rgb<Real> sheen, base, coat;
 };
 
 /// What does not depend on a light.
@@ -61,142 +34,6 @@ struct NoListener {
   void light(std::size_t, const LightPart<Real>&) {}
 };
 
-/// A lobe's normal with the view direction it is seen from: mirrored where N.V <= 0, its cosine floored.
-template <class Real>
-struct LobeView {
-  Vec3<Real> n, v;
-  Real n_dot_v;
-  Real mirrored;
-
-  LobeView(const Vec3<Real>& normal, const Vec3<Real>& view) : n(normal), v(view) {
-    using brdf::max;
-    using brdf::min;
-    using brdf::select;
-    const Real cosine = dot(normal, view);
-    v = view - normal * (Real(2) * min(cosine, Real(0)));
-    n_dot_v = min(max(dot(n, v), Real(albedo::min_n_dot_v)), Real(1));
-    mirrored = select(cosine > Real(0), Real(0), Real(1));
-  }
-};
-
-/// A number as the lobes' arithmetic has it, or back: the same, where that is the same.
-template <class To>
-struct As {
-  static const To& number(const To& x) { return x; }
-  template <class From>
-  static To number(const From& x) {
-    return converted_to(x, static_cast<const To*>(nullptr));
-  }
-  template <class From>
-  static brdf::Rgb<To> color(const brdf::Rgb<From>& c) {
-    return {number(c.r), number(c.g), number(c.b)};
-  }
-  template <class From>
-  static Vec3<To> vector(const Vec3<From>& v) {
-    return {number(v.x), number(v.y), number(v.z)};
-  }
-  template <class From>
-  static brdf::Base<To> base(const brdf::Base<From>& b) {
-    return {color(b.color), number(b.metallic), number(b.alpha), color(b.dielectric_f0), number(b.specular)};
-  }
-};
-
-/// The half vector's angles about a lobe's normal, as the lobes' arithmetic finds them of N, V and H.
-template <class Lobe>
-struct HalfAngles {
-  Lobe n_dot_h, sin2_theta_h, v_dot_h;
-
-  template <class Real>
-  HalfAngles(const LobeView<Real>& lobe, const Vec3<Real>& l) {
-    using brdf::inversesqrt;
-    using brdf::max;
-    using brdf::min;
-    const Vec3<Real> sum = l + lobe.v;
-    // L = -V has no half vector; there N.L <= 0, so any finite one serves.
-    const Vec3<Lobe> h = As<Lobe>::vector(sum * inversesqrt(max(dot(sum, sum), Real(1e-30))));
-    const Vec3<Lobe> n = As<Lobe>::vector(lobe.n);
-    const Vec3<Lobe> sine = cross(n, h);
-    n_dot_h = min(max(dot(n, h), Lobe(0)), Lobe(1));
-    sin2_theta_h = min(dot(sine, sine), Lobe(1));
-    v_dot_h = min(max(dot(As<Lobe>::vector(lobe.v), h), Lobe(0)), Lobe(1));
-  }
-};
-
-/// The base of the physical model at one point, with what does not depend on the light found once.
-template <class Real>
-brdf::PhysicalBase<Real> physical_base(const brdf::Base<Real>& base, const Real& n_dot_v, const albedo::GgxInterpolant& ggx) {
-  return {base, AlbedoReader<Real>::ggx(ggx, n_dot_v, base.alpha), AlbedoReader<Real>::ggx_average(ggx, base.alpha)};
-}
-
-/// x times one of TermFactors: x itself where that is 1, of which a shader knows nothing.
-template <class Real>
-Real times(const Real& x, double factor) {
-  return factor == 1.0 ? x : x * Real(factor);
-}
-template <class Real>
-brdf::Rgb<Real> times(const brdf::Rgb<Real>& c, double factor) {
-  return factor == 1.0 ? c : c * Real(factor);
-}
-
-template <class Mask, class Real>
-brdf::Rgb<Real> keep_where(const Mask& mask, const brdf::Rgb<Real>& c) {
-  using brdf::select;
-  return {select(mask, c.r, Real(0)), select(mask, c.g, Real(0)), select(mask, c.b, Real(0))};
-}
-
-template <class Real>
-brdf::Rgb<Real> absolute(const brdf::Rgb<Real>& c) {
-  using brdf::abs;
-  return {abs(c.r), abs(c.g), abs(c.b)};
-}
-
-/// The sheen layer at one point: lobe, E and the scale it puts on what lies below (KHR_materials_sheen).
-template <class Real, class Lobe = Real>
-class SheenLayer {
- public:
-  SheenLayer(const Surface<Real>& surface, const LobeView<Real>& lobe, const Lighting& lighting)
-      : lobe_(lighting.sheen.visibility, As<Lobe>::number(surface.sheen_roughness), As<Lobe>::number(lobe.n_dot_v)),
-        lighting_(lighting),
-        roughness_(surface.sheen_roughness),
-        n_dot_v_(lobe.n_dot_v),
-        strength_(brdf::max3(surface.sheen_color)),
-        e_v_(albedo_at(n_dot_v_)) {}
-
-  const Real& e_v() const { return e_v_; }
-  const brdf::SheenLobe<Lobe>& lobe() const { return lobe_; }
-
-  /// E(N.L); lanes without light cost nothing new.
-  template <class Mask>
-  Real e_l(const Mask& lit, const Real& n_dot_l) const {
-    using brdf::select;
-    return albedo_at(select(lit, n_dot_l, n_dot_v_));
-  }
-
-  bool two_directions() const {
-    return lighting_.sheen.scaling == brdf::AlbedoScaling::Full || lighting_.sheen.scaling == brdf::AlbedoScaling::Literal;
-  }
-
-  Real scale(const Real& e_l) const {
-    return times(brdf::albedo_scale(lighting_.sheen.scaling, strength_, e_v_, e_l), lighting_.factors.scale);
-  }
-
-  /// The scale of a shader that reads E once, at the smaller of the two cosines.
-  Real single_lookup_scale(const Real& n_dot_l, const Real& e_l) const {
-    using brdf::select;
-    const Real e = select(n_dot_l < n_dot_v_, e_l, e_v_);
-    return times(brdf::albedo_scale(lighting_.sheen.scaling, strength_, e, e), lighting_.factors.scale);
-  }
-
- private:
-  Real albedo_at(const Real& cosine) const { return AlbedoReader<Real>::sheen(lighting_.albedo, cosine, roughness_); }
-
-  brdf::SheenLobe<Lobe> lobe_;
-  const Lighting& lighting_;
-  Real roughness_, n_dot_v_;
-  Real strength_;  // sheenColor's largest channel
-  Real e_v_;
-};
-
 /// One surface while its lights are gone through: what none of them changes, found once.
 /// @tparam Lobe  the arithmetic of lobes and Fresnel terms, that of all else being Real
 template <class Real, class Lobe>
@@ -205,122 +42,33 @@ class Shading {
   using Color = brdf::Rgb<Real>;
 
   Shading(const Surface<Real>& surface, Layers layers, const Lighting& lighting)
-      : surface_(surface),
-        layers_(layers),
-        lighting_(lighting),
-        lobe_(surface.normal, surface.view),
-        coat_(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view),
-        k_(layers.clearcoat ? coat_weight() : Real(0)),
-        below_(Real(1) - k_),
-        n_dot_v_(As<Lobe>::number(lobe_.n_dot_v)),
-        base_(As<Lobe>::base(surface.base), n_dot_v_) {
-    if (layers.sheen) {
-      sheen_.emplace(surface, lobe_, lighting);
-    }
-    if (layers.clearcoat) {
-      coat_lobe_.emplace(As<Lobe>::number(surface.coat_alpha), As<Lobe>::number(coat_.n_dot_v));
-    }
-    if (lighting.ggx != nullptr) {
-      physical_.emplace(physical_base(base_.material(), n_dot_v_, *lighting.ggx));
-    }
-  }
+      : coat_(layers.clearcoat ? std::optional<CoatLayer<Real, Lobe>>(std::in_place, surface, lighting) : std::nullopt),
+        below_(surface, layers, lighting, coat_weight()) {}
 
-  Color emission() const { return below_coat(times(surface_.emission, lighting_.factors.emission)); }
-  ViewPart<Real> view() const { return {lobe_.n_dot_v, sheen_ ? sheen_->e_v() : Real(0), k_, emission()}; }
+  Color emission() const { return below_.emission(); }
+  ViewPart<Real> view() const { return {below_.n_dot_v(), below_.e_v(), coat_weight(), emission()}; }
   Real mirrored() const {
     using brdf::max;
-    return max(lobe_.mirrored, coat_.mirrored);
+    return coat_ ? max(below_.mirrored(), coat_->mirrored()) : below_.mirrored();
   }
 
   /// What one light adds. Where it lies behind a lobe's normal in every lane, that lobe is not evaluated.
   /// @param wants_e_l  whether E(N.L) is to be told though the model does not need it
   /// @param lookup     is added to; see Shaded
   LightPart<Real> light(const Arriving<Real>& light, bool wants_e_l, Color& lookup) const {
-    using brdf::any;
-    const Color zero{Real(0), Real(0), Real(0)};
-    LightPart<Real> part{dot(surface_.normal, light.direction), Real(0), Real(0), Real(0), Real(0), Real(1), Real(0), zero, zero, zero};
-    const auto lit = part.n_dot_l > Real(0);
-    if (any(lit)) {
-      add_below(light, lit, wants_e_l, part, lookup);
-    }
-    if (layers_.clearcoat) {
-      const Real cosine = dot(surface_.coat_normal, light.direction);
-      const auto coat_lit = cosine > Real(0);
-      if (any(coat_lit)) {
-        add_coat(light, coat_lit, cosine, part);
-      }
+    LightPart<Real> part = no_light<Real>();
+    below_.add_light(light, wants_e_l, part, lookup);
+    if (coat_) {
+      coat_->add_light(light, part);
     }
     return part;
   }
 
  private:
-  template <class Mask>
-  void add_below(const Arriving<Real>& light, const Mask& lit, bool wants_e_l, LightPart<Real>& part, Color& lookup) const {
-    using brdf::max;
-    using brdf::min;
-    using brdf::select;
-    const TermFactors& factors = lighting_.factors;
-    const Real n_dot_l = min(max(part.n_dot_l, Real(0)), Real(1));
-    const HalfAngles<Lobe> half(lobe_, light.direction);
-    part.n_dot_h = As<Real>::number(half.n_dot_h);
-    const Color base = times(base_brdf(n_dot_l, half), factors.base);
-    const Color irradiance = below_coat(light.irradiance);
-    if (sheen_) {
-      const bool needs_e_l = sheen_->two_directions() || wants_e_l;
-      const auto read = [&] { return sheen_->e_l(lit, n_dot_l); };
-      const Real e_l = needs_e_l ? AlbedoReader<Real>::for_light(sheen_->e_v(), n_dot_l, lobe_.n_dot_v, read) : Real(0);
-      part.e_l = select(lit, e_l, Real(0));
-      const Lobe d = times(sheen_->lobe().distribution(half.n_dot_h, half.sin2_theta_h), factors.distribution);
-      const Lobe v = times(sheen_->lobe().visibility_times_n_dot_l(As<Lobe>::number(n_dot_l)), factors.visibility);
-      part.d = As<Real>::number(d);
-      part.v = As<Real>::number(v);
-      part.scale = sheen_->scale(e_l);
-      part.sheen = keep_where(lit, irradiance * As<Real>::color(As<Lobe>::color(surface_.sheen_color) * (d * v)));
-      if (finds_lookup_error<Real> && sheen_->two_directions()) {
-        const Real missed = sheen_->single_lookup_scale(n_dot_l, e_l) - part.scale;
-        lookup = lookup + keep_where(lit, absolute(irradiance * base * (missed * n_dot_l)));
-      }
-    }
-    part.base = keep_where(lit, irradiance * base * (part.scale * n_dot_l));
-  }
+  Real coat_weight() const { return coat_ ? coat_->weight() : Real(0); }
 
-  Color base_brdf(const Real& n_dot_l, const HalfAngles<Lobe>& half) const {
-    if (physical_) {
-      const auto albedo = AlbedoReader<Lobe>::ggx(*lighting_.ggx, As<Lobe>::number(n_dot_l), base_.material().alpha);
-      return As<Real>::color(physical_->brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
-    }
-    return As<Real>::color(base_.brdf(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
-  }
-
-  template <class Mask>
-  void add_coat(const Arriving<Real>& light, const Mask& lit, const Real& cosine, LightPart<Real>& part) const {
-    using brdf::max;
-    using brdf::min;
-    const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
-    const HalfAngles<Lobe> half(coat_, light.direction);
-    const Lobe lobe = coat_lobe_->value(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h);
-    part.coat_lobe = times(As<Real>::number(lobe), lighting_.factors.coat_lobe);
-    part.coat = keep_where(lit, light.irradiance * (k_ * part.coat_lobe * n_dot_l));
-  }
-
-  /// What comes through the coat.
-  Color below_coat(const Color& c) const { return layers_.clearcoat ? c * below_ : c; }
-
-  Real coat_weight() const {
-    const Lobe k = brdf::clearcoat_weight(As<Lobe>::number(surface_.clearcoat), As<Lobe>::number(coat_.n_dot_v));
-    return times(As<Real>::number(k), lighting_.factors.coat_weight);
-  }
-
-  const Surface<Real>& surface_;
-  Layers layers_;
-  const Lighting& lighting_;
-  LobeView<Real> lobe_, coat_;
-  Real k_, below_;  // the coat's weight, and what it leaves of all below it
-  Lobe n_dot_v_;
-  brdf::BaseLayer<Lobe> base_;
-  std::optional<brdf::ClearcoatLobe<Lobe>> coat_lobe_;
-  std::optional<SheenLayer<Real, Lobe>> sheen_;
-  std::optional<brdf::PhysicalBase<Lobe>> physical_;
+  std::optional<CoatLayer<Real, Lobe>> coat_;
+  BelowCoat<Real, Lobe> below_;
 };
 
 /// The radiance after a light's part, in the shader's order of summation; layers that are not there add nothing.
