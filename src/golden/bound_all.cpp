@@ -43,30 +43,70 @@ void bound_all_scalar(const BoundJob& job, const Lighting& lighting, brdf::Rgb<B
   }
 }
 
+void bound_coats_scalar(const CoatJob& job, const Lighting& lighting, CoatSum<Bound>* results) {
+  for (std::size_t i = 0; i < job.count; ++i) {
+    const CoatSurface<Bound>& surface = job.surfaces[job.order[i]];
+    results[job.order[i]] = job.lobes == Precision::Mediump ? coat_sum<number::Bounded<number::Mediump>>(surface, lighting)
+                                                            : coat_sum<Bound>(surface, lighting);
+  }
+}
+
+void bound_below_scalar(const BelowJob& job, const Lighting& lighting, BelowSum<Bound>* results) {
+  for (std::size_t i = 0; i < job.count; ++i) {
+    const std::uint32_t index = job.order[i];
+    const Surface<Bound>& surface = job.surfaces[job.surface_of[index]];
+    results[index] = job.lobes == Precision::Mediump
+                         ? below_sum<number::Bounded<number::Mediump>>(surface, job.below[index], job.layers, lighting)
+                         : below_sum<Bound>(surface, job.below[index], job.layers, lighting);
+  }
+}
+
 void bend_all_scalar(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
   for (std::size_t i = 0; i < count; ++i) {
     normals[i] = bent(maps[i]);
   }
 }
 
-void bound_all(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
+namespace {
+
+struct Functions {
+  decltype(&bound_all_scalar) all;
+  decltype(&bound_coats_scalar) coats;
+  decltype(&bound_below_scalar) below;
+  decltype(&bend_all_scalar) bend, bend_ranges;
+};
+
+/// Those of batches where the processor can.
+const Functions& functions() {
+  static constexpr Functions scalar{bound_all_scalar, bound_coats_scalar, bound_below_scalar, bend_all_scalar, bend_all_scalar};
 #if defined(__x86_64__) || defined(__i386__)
-  if (number::has_batch()) {
-    bound_all_batch(job, lighting, results);
-    return;
-  }
+  static constexpr Functions batch{bound_all_batch, bound_coats_batch, bound_below_batch, bend_all_batch, bend_ranges_batch};
+  return number::has_batch() ? batch : scalar;
+#else
+  return scalar;
 #endif
-  bound_all_scalar(job, lighting, results);
+}
+
+}  // namespace
+
+void bound_all(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
+  functions().all(job, lighting, results);
+}
+
+void bound_coats(const CoatJob& job, const Lighting& lighting, CoatSum<Bound>* results) {
+  functions().coats(job, lighting, results);
+}
+
+void bound_below(const BelowJob& job, const Lighting& lighting, BelowSum<Bound>* results) {
+  functions().below(job, lighting, results);
 }
 
 void bend_all(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
-#if defined(__x86_64__) || defined(__i386__)
-  if (number::has_batch()) {
-    bend_all_batch(maps, count, normals);
-    return;
-  }
-#endif
-  bend_all_scalar(maps, count, normals);
+  functions().bend(maps, count, normals);
+}
+
+void bend_ranges(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
+  functions().bend_ranges(maps, count, normals);
 }
 
 }  // namespace sheen::golden

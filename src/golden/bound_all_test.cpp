@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -12,56 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "albedo/interpolant.h"
+#include "golden/uncertain_surfaces_test.h"
 #include "number/bounded_functions.h"
 #include "number/cpu.h"
 
 namespace sheen::golden {
 namespace {
-
-/// Random surfaces in view space, uncertain and displaced as a reader's are, some of their numbers exact.
-class Surfaces {
- public:
-  Surface<Bound> next() {
-    Surface<Bound> s{};
-    s.position = {moving(0.6 * uniform() - 0.3), moving(0.6 * uniform() - 0.3), moving(-1.0 - uniform())};
-    s.view = unit({0.3 * uniform(), 0.3 * uniform(), 1.0});
-    s.normal = unit({uniform() - 0.5, uniform() - 0.5, uniform()});
-    s.coat_normal = unit({uniform() - 0.5, uniform() - 0.5, uniform()});
-    s.base = {
-        color(), count_ % 3 == 0 ? Bound(0.0) : moving(uniform()), moving(uniform()), {Bound(0.04), moving(0.1), Bound(1)}, Bound(0.5)};
-    s.sheen_color = color();
-    s.sheen_roughness = count_ % 5 == 0 ? Bound(0.0) : Bound(0.3);
-    s.clearcoat = moving(uniform());
-    s.coat_alpha = count_ % 7 == 0 ? Bound(0.0) : moving(0.01 + uniform());
-    s.emission = color();
-    s.occlusion = Bound(1);
-    ++count_;
-    return s;
-  }
-
-  MappedNormal<Bound> map() {
-    const bool nothing = count_++ % 9 == 0;  // certainly no direction
-    const Vec3<Bound> none{Bound(0.5), Bound(0.5), Bound(0.5)};
-    const Vec3<Bound> code{moving(uniform()), moving(uniform()), moving(0.5 + 0.5 * uniform())};
-    return {unit({1.0, 0.2, 0.1}), unit({0.1, 0.2, 1.0}), Bound(-1.0), nothing ? none : code, moving(1.0), Bound(-1.0)};
-  }
-
- private:
-  double uniform() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
-  // Some so wide that the usual case of arithmetic does not hold.
-  Bound moving(double x) {
-    const double size = uniform() < 0.1 ? 0.02 : 1e-5;
-    return Bound::at_sample(x, size * (uniform() - 0.5), size * (uniform() - 0.5), 1.0, 0.3 * size);
-  }
-  brdf::Rgb<Bound> color() { return {moving(uniform()), moving(uniform()), moving(uniform())}; }
-  Vec3<Bound> unit(const glm::dvec3& v) {
-    const glm::dvec3 n = glm::normalize(v);
-    return {moving(n.x), moving(n.y), moving(n.z)};
-  }
-
-  std::mt19937 random_{3};
-  int count_ = 0;
-};
 
 void expect_same(const Bound& one, const Bound& four) {
   ASSERT_EQ(one.is_bounded(), four.is_bounded());
@@ -97,18 +52,11 @@ struct Comparison {
   int bounded = 0;
 
   Comparison() {
-    Surfaces make;
+    test::UncertainSurfaces make;
     for (int i = 0; i < 203; ++i) {
       surfaces.push_back(make.next());
     }
-    scene::Light spot;
-    spot.type = scene::LightType::Spot;
-    spot.position = {0.5, 1.0, 1.0};
-    spot.direction = glm::normalize(glm::dvec3(-0.5, -1.0, -2.0));
-    spot.range = 9.0;
-    scene::Light grazing;
-    grazing.direction = glm::normalize(glm::dvec3(-1.0, 0.3, -0.2));
-    lights = prepare_lights({scene::Light{}, spot, grazing});
+    lights = test::few_lights();
   }
 
   void compare(const Lighting& lighting, Precision lobes, Layers layers = {true, true}) {
@@ -197,30 +145,7 @@ TEST(BoundAll, CurvesAboutOneRoughnessAgreeWithTheInterpolant) {
   }
 }
 
-/// One of all that an uncertain number may be. @param u, v, e  in [-1, 1]
-double held(const Bound& x, double u, double v, double e) {
-  const double at = x.center() + u * x.shift_x() + v * x.shift_y() + e * x.radius();
-  return x.is_bounded() ? std::clamp(at, x.range().lower, x.range().upper) : at;
-}
-
-Surface<double> held(const Surface<Bound>& surface, std::mt19937& random) {
-  // At the ends as often as in between.
-  const auto side = [](std::mt19937& from) { return std::clamp(std::uniform_real_distribution<double>(-2.0, 2.0)(from), -1.0, 1.0); };
-  const double u = side(random);
-  const double v = side(random);
-  constexpr std::size_t numbers = sizeof(Surface<double>) / sizeof(double);
-  std::array<Bound, numbers> bounds;
-  std::memcpy(static_cast<void*>(bounds.data()), static_cast<const void*>(&surface), sizeof(surface));
-  std::array<double, numbers> values{};
-  for (std::size_t i = 0; i < numbers; ++i) {
-    values.at(i) = held(bounds.at(i), u, v, side(random));
-  }
-  Surface<double> out;
-  std::memcpy(static_cast<void*>(&out), values.data(), sizeof(out));
-  return out;
-}
-
-// Normals that a map leaves open, which are done by ranges: with all that a surface may be, in both ways of the batch.
+// Normals that a map leaves open, which are done by ranges where they are narrower.
 TEST(BoundAll, BatchesHoldSurfacesOfOpenNormals) {
   if (!number::has_batch()) {
     return;
@@ -259,23 +184,21 @@ TEST(BoundAll, BatchesHoldSurfacesOfOpenNormals) {
     const Layers layers{!physical, !physical};
     std::vector<brdf::Rgb<Bound>> one(c.surfaces.size());
     bound_all_scalar({c.surfaces.data(), order.data(), order.size(), layers, Precision::Highp}, lighting, one.data());
-    for (const bool ranges_alone : {false, true}) {
-      std::vector<brdf::Rgb<Bound>> many(c.surfaces.size());
-      bound_all_batch({c.surfaces.data(), order.data(), order.size(), layers, Precision::Highp, ranges_alone}, lighting, many.data());
-      int bounded = 0;
-      int missed = 0;
-      for (std::size_t i = 0; i < many.size(); ++i) {
-        missed += one[i].g.is_bounded() && !many[i].g.is_bounded() ? 1 : 0;
-        bounded += many[i].g.is_bounded() ? 1 : 0;
-        for (int k = 0; k < 30 && many[i].g.is_bounded(); ++k) {
-          const double there = shade(held(c.surfaces[i], random), layers, lighting, NoListener{}).radiance.g;
-          ASSERT_LE(std::abs(there - many[i].g.center()), many[i].g.deviation()) << "surface " << i << ' ' << ranges_alone;
-        }
+    std::vector<brdf::Rgb<Bound>> many(c.surfaces.size());
+    bound_all_batch({c.surfaces.data(), order.data(), order.size(), layers, Precision::Highp}, lighting, many.data());
+    int bounded = 0;
+    int missed = 0;
+    for (std::size_t i = 0; i < many.size(); ++i) {
+      missed += one[i].g.is_bounded() && !many[i].g.is_bounded() ? 1 : 0;
+      bounded += many[i].g.is_bounded() ? 1 : 0;
+      for (int k = 0; k < 30 && many[i].g.is_bounded(); ++k) {
+        const double there = shade(test::held(c.surfaces[i], random), layers, lighting, NoListener{}).radiance.g;
+        ASSERT_LE(std::abs(there - many[i].g.center()), many[i].g.deviation()) << "surface " << i;
       }
-      EXPECT_FALSE(many[11].g.is_bounded());
-      EXPECT_GT(bounded, 100);
-      EXPECT_EQ(missed, 0) << "what is lost by ranges is done with more care";
     }
+    EXPECT_FALSE(many[11].g.is_bounded());
+    EXPECT_GT(bounded, 100);
+    EXPECT_EQ(missed, 0) << "what is lost by ranges is done with more care";
   }
 }
 
@@ -283,7 +206,7 @@ TEST(BendAll, BatchesAgreeWithOneAtATime) {
   if (!number::has_batch()) {
     return;
   }
-  Surfaces make;
+  test::UncertainSurfaces make;
   std::vector<MappedNormal<Bound>> maps;
   for (int i = 0; i < 101; ++i) {
     maps.push_back(make.map());

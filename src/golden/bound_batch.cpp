@@ -1,10 +1,12 @@
 #include <algorithm>
-#include <cstring>
+#include <limits>
 #include <optional>
 
 #include "golden/batches.h"
 #include "golden/bound_all.h"
 #include "golden/bounded_batch_albedo.h"
+#include "golden/eight.h"
+#include "golden/range_vectors.h"
 #include "number/affine_batch.h"
 #include "number/bounded_batch_functions.h"
 #include "number/range_batch.h"
@@ -27,14 +29,14 @@ namespace sheen::golden {
 /// unit_or() of mapped_normal.h in every lane.
 template <class Precision, class Otherwise>
 Vec3<number::BoundedBatch<Precision>> unit_or(const Vec3<number::BoundedBatch<Precision>>& v, const Otherwise& otherwise) {
-  using Many = number::BoundedBatch<Precision>;
-  using One = typename Many::One;
-  const Many squared = dot(v, v);
-  Vec3<Many> unit = v * inversesqrt(squared);
+  using Batch = number::BoundedBatch<Precision>;
+  using One = typename Batch::One;
+  const Batch squared = dot(v, v);
+  Vec3<Batch> unit = v * inversesqrt(squared);
   const number::BatchMask has_direction = (squared.lower() > number::Batch(smallest_length_squared)) & ~squared.is_unbounded();
-  for (std::size_t i = 0; i < Many::lanes; ++i) {
+  for (std::size_t i = 0; i < Batch::lanes; ++i) {
     if (!has_direction.get(i)) {
-      const auto lane = [i](const Vec3<Many>& w) { return Vec3<One>{w.x.lane(i), w.y.lane(i), w.z.lane(i)}; };
+      const auto lane = [i](const Vec3<Batch>& w) { return Vec3<One>{w.x.lane(i), w.y.lane(i), w.z.lane(i)}; };
       const Vec3<One> one = unit_or(lane(v), [&] { return lane(otherwise()); });
       unit.x.set_lane(i, one.x);
       unit.y.set_lane(i, one.y);
@@ -44,8 +46,19 @@ Vec3<number::BoundedBatch<Precision>> unit_or(const Vec3<number::BoundedBatch<Pr
   return unit;
 }
 
+/// The same by ranges; a lane without a certain direction is lost.
+template <class Otherwise>
+Vec3<number::RangeBatch> unit_or(const Vec3<number::RangeBatch>& v, const Otherwise& /*otherwise*/) {
+  using Ranges = number::RangeBatch;
+  const Ranges squared = dot(v, v);
+  const number::FloatMask has_direction = squared.lower() > number::FloatBatch(static_cast<float>(smallest_length_squared));
+  const number::FloatBatch none(std::numeric_limits<float>::quiet_NaN());
+  Ranges inverse = inversesqrt(squared);
+  inverse.take(~has_direction, Ranges(none, none));
+  return v * inverse;
+}
+
 void bend_all_batch(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
-  using Many = number::BoundedBatch<number::Highp>;
   constexpr std::uint32_t order[Many::lanes] = {0, 1, 2, 3};
   for (std::size_t i = 0; i < count; i += Many::lanes) {
     const std::size_t here = std::min(count - i, Many::lanes);
@@ -55,38 +68,9 @@ void bend_all_batch(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bou
 
 namespace {
 
-using Many = number::BoundedBatch<number::Highp>;
 using Forms = number::AffineBatch;
 using Ranges = number::RangeBatch;
-constexpr std::size_t eight = 2 * Many::lanes;
-
-/// Two surfaces of four lanes as one of eight.
-template <class Eight>
-Surface<Eight> joined(const Surface<Many>& first, const Surface<Many>& last) {
-  constexpr std::size_t numbers = sizeof(Surface<Many>) / sizeof(Many);
-  static_assert(sizeof(Surface<Eight>) == numbers * sizeof(Eight));
-  const auto number_of = [](const Surface<Many>& surface, std::size_t i) {
-    Many one;
-    std::memcpy(static_cast<void*>(&one), reinterpret_cast<const char*>(&surface) + i * sizeof(Many), sizeof(one));
-    return one;
-  };
-  Surface<Eight> out;
-  for (std::size_t i = 0; i < numbers; ++i) {
-    const Eight both(number_of(first, i), number_of(last, i));
-    std::memcpy(reinterpret_cast<char*>(&out) + i * sizeof(Eight), static_cast<const void*>(&both), sizeof(both));
-  }
-  return out;
-}
-
-template <class Eight>
-brdf::Rgb<Many> half_of(const brdf::Rgb<Eight>& c, std::size_t half) {
-  return {c.r.bounds(half), c.g.bounds(half), c.b.bounds(half)};
-}
-
-template <class Eight>
-number::FloatMask lost(const brdf::Rgb<Eight>& c) {
-  return c.r.is_lost() | c.g.is_lost() | c.b.is_lost();
-}
+using Lobes = number::BoundedBatch<number::Mediump>;
 
 brdf::Rgb<Forms> forms_of(const brdf::Rgb<Ranges>& c) {
   const auto form = [](const Ranges& x) { return Forms(x.bounds(0), x.bounds(1)); };
@@ -125,53 +109,15 @@ brdf::Rgb<Forms> instead_of(const brdf::Rgb<Forms>& sum, const number::FloatMask
   if (!xsimd::any(lanes)) {
     return sum;
   }
-  const auto half = [&](std::size_t i) {
-    bool keeps = true;
-    for (std::size_t lane = i * Many::lanes; lane < (i + 1) * Many::lanes; ++lane) {
-      keeps = keeps && !lanes.get(lane);
-    }
-    return keeps ? half_of(sum, i) : careful(i);
-  };
+  const auto half = [&](std::size_t i) { return any_of_half(lanes, i) ? careful(i) : half_of(sum, i); };
   const brdf::Rgb<Many> first = half(0);
   const brdf::Rgb<Many> last = half(1);
   return {Forms(first.r, last.r), Forms(first.g, last.g), Forms(first.b, last.b)};
 }
 
-/// Eight surfaces of a job; short of them, the last again.
-class Surfaces {
- public:
-  /// @param first  in the job's order
-  Surfaces(const BoundJob& job, std::size_t first) : order_(job.order + first), count_(std::min(job.count - first, eight)) {
-    for (std::size_t half = 0; half < 2; ++half) {
-      const std::size_t from = std::min(half * Many::lanes, count_ - 1);
-      halves_[half] = gather<Surface<Many>>(job.surfaces, order_ + from, std::min(count_ - from, Many::lanes));
-    }
-  }
-
-  std::size_t count() const { return count_; }
-  const Surface<Many>& half(std::size_t i) const { return halves_[i]; }
-  template <class Eight>
-  Surface<Eight> all() const {
-    return joined<Eight>(halves_[0], halves_[1]);
-  }
-
-  template <class Eight>
-  void scatter_radiance(const brdf::Rgb<Eight>& radiance, brdf::Rgb<Bound>* results) const {
-    for (std::size_t half = 0; half * Many::lanes < count_; ++half) {
-      const std::size_t from = half * Many::lanes;
-      scatter(half_of(radiance, half), order_ + from, std::min(count_ - from, Many::lanes), results);
-    }
-  }
-
- private:
-  const std::uint32_t* order_;
-  std::size_t count_;
-  Surface<Many> halves_[2];
-};
-
 /// shade() of surfaces each under the same lights (not Lighting::distant): light by light without ranges where that holds all lanes of a
 /// half, else with them.
-brdf::Rgb<Forms> shade_by_forms(const Surfaces& surfaces, Layers layers, const Lighting& lighting) {
+brdf::Rgb<Forms> shade_by_forms(const EightOf<Surface>& surfaces, Layers layers, const Lighting& lighting) {
   const Surface<Forms> forms = surfaces.all<Forms>();
   const Shading<Forms, Forms> quick(forms, layers, lighting);
   std::optional<Shading<Many, Many>> made[2];
@@ -206,48 +152,84 @@ brdf::Rgb<Forms> shade_by_forms(const Surfaces& surfaces, Layers layers, const L
   return radiance;
 }
 
-void bound_by_forms(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
-  for (std::size_t i = 0; i < job.count; i += eight) {
-    const Surfaces surfaces(job, i);
-    surfaces.scatter_radiance(shade_by_forms(surfaces, job.layers, lighting), results);
+/// Results of ranges to where they belong; those of lanes that are lost once more one by one, by careful(index).
+template <template <class> class Result, class Careful>
+void scatter_ranges(const Result<Ranges>& made, const std::uint32_t* order, std::size_t count, Result<Bound>* results,
+                    const Careful& careful) {
+  scatter_eight(made, order, count, results);
+  const number::FloatMask are_lost = lost(made);
+  for (std::size_t lane = 0; lane < count && xsimd::any(are_lost); ++lane) {
+    if (are_lost.get(lane)) {
+      careful(order[lane]);
+    }
   }
 }
 
-/// Lanes that are lost are done by forms.
-void bound_by_ranges(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
-  for (std::size_t i = 0; i < job.count; i += eight) {
-    const Surfaces surfaces(job, i);
-    const auto radiance = shade_with<Ranges>(surfaces.all<Ranges>(), job.layers, lighting, NoListener{}).radiance;
-    surfaces.scatter_radiance(radiance, results);
-    const number::FloatMask are_lost = lost(radiance);
-    BoundJob again = job;
-    std::uint32_t order[eight];
-    again.order = order;
-    again.count = 0;
-    for (std::size_t lane = 0; lane < surfaces.count(); ++lane) {
-      if (are_lost.get(lane)) {
-        order[again.count++] = job.order[i + lane];
-      }
-    }
-    bound_by_forms(again, lighting, results);
+/// f(first, count) of groups of lanes.
+template <class Function>
+void by_lanes(std::size_t lanes, std::size_t count, const Function& f) {
+  for (std::size_t i = 0; i < count; i += lanes) {
+    f(i, std::min(count - i, lanes));
   }
 }
 
 }  // namespace
 
 void bound_all_batch(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
-  using Lobes = number::BoundedBatch<number::Mediump>;
   if (job.lobes == Precision::Mediump) {
-    for (std::size_t i = 0; i < job.count; i += Many::lanes) {
-      const std::size_t here = std::min(job.count - i, Many::lanes);
+    by_lanes(Many::lanes, job.count, [&](std::size_t i, std::size_t here) {
       const auto surfaces = gather<Surface<Many>>(job.surfaces, job.order + i, here);
       scatter(shade_with<Lobes>(surfaces, job.layers, lighting, NoListener{}).radiance, job.order + i, here, results);
-    }
-  } else if (job.ranges_alone) {
-    bound_by_ranges(job, lighting, results);
-  } else {
-    bound_by_forms(job, lighting, results);
+    });
+    return;
   }
+  by_lanes(eight, job.count, [&](std::size_t i, std::size_t here) {
+    const EightOf<Surface> surfaces(job.surfaces, job.order + i, here);
+    scatter_eight(shade_by_forms(surfaces, job.layers, lighting), job.order + i, here, results);
+  });
+}
+
+void bend_ranges_batch(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
+  constexpr std::uint32_t order[eight] = {0, 1, 2, 3, 4, 5, 6, 7};
+  by_lanes(eight, count, [&](std::size_t i, std::size_t here) {
+    const auto careful = [&](std::uint32_t lane) { bend_all_scalar(maps + i + lane, 1, normals + i + lane); };
+    scatter_ranges(bent(gather_ranges(maps + i, order, here)), order, here, normals + i, careful);
+  });
+}
+
+void bound_coats_batch(const CoatJob& job, const Lighting& lighting, CoatSum<Bound>* results) {
+  if (job.lobes == Precision::Mediump) {
+    by_lanes(Many::lanes, job.count, [&](std::size_t i, std::size_t here) {
+      const auto surfaces = gather<CoatSurface<Many>>(job.surfaces, job.order + i, here);
+      scatter(coat_sum<Lobes>(surfaces, lighting), job.order + i, here, results);
+    });
+    return;
+  }
+  by_lanes(eight, job.count, [&](std::size_t i, std::size_t here) {
+    const auto careful = [&](std::uint32_t index) { bound_coats_scalar({job.surfaces, &index, 1, job.lobes}, lighting, results); };
+    scatter_ranges(coat_sum<Ranges>(gather_ranges(job.surfaces, job.order + i, here), lighting), job.order + i, here, results, careful);
+  });
+}
+
+void bound_below_batch(const BelowJob& job, const Lighting& lighting, BelowSum<Bound>* results) {
+  const bool mediump = job.lobes == Precision::Mediump;
+  by_lanes(mediump ? Many::lanes : eight, job.count, [&](std::size_t i, std::size_t here) {
+    const std::uint32_t* order = job.order + i;
+    std::uint32_t surfaces[eight];
+    for (std::size_t lane = 0; lane < here; ++lane) {
+      surfaces[lane] = job.surface_of[order[lane]];
+    }
+    if (mediump) {
+      const auto of = gather<Surface<Many>>(job.surfaces, surfaces, here);
+      scatter(below_sum<Lobes>(of, gather<BelowSurface<Many>>(job.below, order, here), job.layers, lighting), order, here, results);
+      return;
+    }
+    const auto careful = [&](std::uint32_t index) {
+      bound_below_scalar({job.surfaces, job.below, job.surface_of, &index, 1, job.layers, job.lobes}, lighting, results);
+    };
+    const auto of = gather_ranges(job.surfaces, surfaces, here);
+    scatter_ranges(below_sum<Ranges>(of, gather_ranges(job.below, order, here), job.layers, lighting), order, here, results, careful);
+  });
 }
 
 }  // namespace sheen::golden

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "golden/bound_all.h"
@@ -23,33 +24,44 @@ class BoundedSamples {
   Enclosed at(std::size_t sample) const;
 
  private:
-  /// Surfaces that a layer may be instead of one of its surfaces, by the levels of one of its normal maps.
-  struct Run {
-    std::size_t first, last;  // of surfaces_
-    std::size_t instead_of;
+  struct Interval {
+    std::size_t first = 0, last = 0;
+    std::size_t count() const { return last - first; }
   };
   struct Layer {
     Bound opacity;
     bool edge_on;
+    int material;
     std::size_t surface;
-    std::size_t first_map, first_coat_map, last_map;  // of maps_
-    std::size_t first_run, last_run;                  // of runs_
+    bool is_open;              // whether a driver may choose from several normals
+    Interval maps, coat_maps;  // of Maps; as many as it may choose from, none where no map is read
+    Interval coats, below;     // of an open one, of coats_ and below_: what it may be
+  };
+  struct Maps {
+    std::vector<MappedNormal<Bound>> read;
+    std::vector<Vec3<Bound>> bent;
+
+    Interval add(const std::vector<MappedNormal<Bound>>& maps);
   };
   std::size_t first_layer(std::size_t sample) const { return sample == 0 ? 0 : ends_[sample - 1]; }
   void add_layer(const Hit& hit, const Ray& ray, double step);
-  Enclosed composed(std::size_t sample, std::size_t varied_layer, std::size_t as_surface) const;
-  glm::dvec4 deviation_of(const Run& run, std::size_t sample, std::size_t layer) const;
-
-  void add_runs(Layer& layer);
-  std::size_t barest(const Layer& layer, const Run& coats) const;
+  template <class Function>
+  void for_normals(const Interval& maps, const Vec3<Bound>& unmapped, const Function& f) const;
+  void shade_closed();
+  void shade_open();
+  Bound shown(const Layer& layer, Bound brdf::Rgb<Bound>::*channel) const;
 
   const PixelBound& bound_;
-  std::vector<MappedNormal<Bound>> maps_;
-  std::vector<Vec3<Bound>> bent_;  // of maps_
-  std::vector<Run> runs_;
+  BoundedSurface read_;  // the last
+  Maps closed_, open_;   // of layers that are not open and of those that are
   std::vector<Surface<Bound>> surfaces_;
-  std::vector<int> materials_;  // of surfaces_
-  std::vector<brdf::Rgb<Bound>> radiance_;
+  std::vector<int> materials_;              // of what is shaded
+  std::vector<brdf::Rgb<Bound>> radiance_;  // of surfaces_
+  std::vector<CoatSurface<Bound>> coats_;
+  std::vector<CoatSum<Bound>> coat_sums_;
+  std::vector<BelowSurface<Bound>> below_;
+  std::vector<std::uint32_t> surface_of_;  // of below_
+  std::vector<BelowSum<Bound>> below_sums_;
   std::vector<Layer> layers_;      // a sample's back to front
   std::vector<std::size_t> ends_;  // of samples, among layers_
 };

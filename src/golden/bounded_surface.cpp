@@ -63,7 +63,7 @@ class BoundedSurfaceReader::At {
         local_(r.geometry_.local_vertices(hit.triangle)),
         interpolate_(r.geometry_, r.rays_, hit, ray, step) {}
 
-  BoundedSurface read() const;
+  void read(BoundedSurface& out) const;
   Bound opacity() const { return opacity(texture(material_.base_color)); }
 
  private:
@@ -96,7 +96,7 @@ class BoundedSurfaceReader::At {
   Vector transformed(const std::array<glm::dvec3, 3>& directions, const glm::dmat3& view_from_local) const;
   Vector normal(const Vector& position) const;
   Tangent tangent() const;
-  Vector mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& maps) const;
+  Vector mapped_normal(std::size_t map, const Vector& normal, BoundedSurface::Maps& maps) const;
   Bound opacity(const Texel& base_color) const;
   Bound vertex_color(int channel) const;
   void read_base(Surface<Bound>& s, Bound& alpha) const;
@@ -249,9 +249,11 @@ BoundedSurfaceReader::At::Tangent BoundedSurfaceReader::At::tangent() const {
 }
 
 // On the side that is seen; see BoundedSurface for `maps`.
-Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& normal, std::vector<MappedNormal<Bound>>& maps) const {
+Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& normal, BoundedSurface::Maps& maps) const {
   const bool of_coat = map == SurfaceReader::clearcoat_normal_slot;
   const Slot& slot = of_coat ? material_.clearcoat_normal : material_.normal;
+  maps.is_open = false;
+  maps.normal.clear();
   const Vector facing = hit_.front ? normal : Vector{-normal.x, -normal.y, -normal.z};
   if (!slot.texture || placed_.primitive->tangents.empty()) {
     return facing;
@@ -265,16 +267,13 @@ Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& no
   const Place at = place(slot);
   TextureBox box(*slot.texture, at.uv, at.reach);
   const Bound scale(of_coat ? material_.source->clearcoat.normal_scale : material_.source->normal_scale);
-  const auto mapped = [&](const Spread& spread) {
-    const Texel read = at.is_bounded() ? texel(spread) : unbounded_texel();
-    const Vector code{read.r, read.g, read.b};
-    return MappedNormal<Bound>{tangent_->along, normal, tangent_->handedness, code, scale, Bound(hit_.front ? 1.0 : -1.0)};
-  };
   const Levels l = levels(slot);
   const NormalLevels all = normal_levels(box, l.ideal, l.pieces, scale.center());
-  maps.push_back(mapped(all.ideal));
-  for (const Spread& other : all.others) {
-    maps.push_back(mapped(other));
+  maps.is_open = all.is_open;
+  for (const Spread& spread : all.boxes) {
+    const Texel read = at.is_bounded() ? texel(spread) : unbounded_texel();
+    const Vector code{read.r, read.g, read.b};
+    maps.normal.push_back({tangent_->along, normal, tangent_->handedness, code, scale, Bound(hit_.front ? 1.0 : -1.0)});
   }
   return facing;
 }
@@ -334,8 +333,7 @@ void BoundedSurfaceReader::At::read_layers(Surface<Bound>& s) const {
   s.occlusion = Bound(1);
 }
 
-BoundedSurface BoundedSurfaceReader::At::read() const {
-  BoundedSurface out;
+void BoundedSurfaceReader::At::read(BoundedSurface& out) const {
   Surface<Bound>& s = out.surface;
   s.position = position();
   const Vector up{Bound(0.0), Bound(0.0), Bound(1)};
@@ -347,7 +345,6 @@ BoundedSurface BoundedSurfaceReader::At::read() const {
   out.edge_on = interpolate_.is_edge_on();
   read_base(s, out.opacity);
   read_layers(s);
-  return out;
 }
 
 BoundedSurfaceReader::BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader,
@@ -359,8 +356,8 @@ BoundedSurfaceReader::BoundedSurfaceReader(const Geometry& geometry, const RayGe
   }
 }
 
-BoundedSurface BoundedSurfaceReader::read(const Hit& hit, const Ray& ray, double step) const {
-  return At(*this, hit, ray, step).read();
+void BoundedSurfaceReader::read(const Hit& hit, const Ray& ray, double step, BoundedSurface& out) const {
+  At(*this, hit, ray, step).read(out);
 }
 
 Bound BoundedSurfaceReader::opacity(const Hit& hit, const Ray& ray, double step) const {

@@ -18,9 +18,12 @@ struct BoundedSurface {
   Surface<Bound> surface;  ///< position and directions in view space, where a shader's roundings happen
   Bound opacity{1};
   bool edge_on = false;  ///< see Interpolation
-  /// What its normal maps make of the two normals, which bent() finds: first at the ideal level of detail; then, unless that one holds all
-  /// that OpenGL ES allows, others that do, each over some levels. None where there is no map: then the surface has its normal.
-  std::vector<MappedNormal<Bound>> normals, coat_normals;
+  /// What a normal map makes of a normal, which bent() finds.
+  struct Maps {
+    bool is_open = false;                     ///< see NormalLevels
+    std::vector<MappedNormal<Bound>> normal;  ///< any of these; none where no map is read: then the surface has its normal
+  };
+  Maps normals, coat_normals;
 };
 
 /// Reads surfaces as SurfaceReader does, on number::Bounded: the vertex shader's and the interpolation's roundings (varying.h), textures at
@@ -32,7 +35,8 @@ class BoundedSurfaceReader {
 
   /// At a hit of a ray; see Interpolation. Where a normal may or may not have a direction, it is unbounded.
   /// @param step  of the sample's displacement along either axis, pixels
-  BoundedSurface read(const Hit& hit, const Ray& ray, double step) const;
+  /// @param out  whatever it was; its memory is made use of
+  void read(const Hit& hit, const Ray& ray, double step, BoundedSurface& out) const;
 
   /// Its opacity alone, in [0, 1].
   Bound opacity(const Hit& hit, const Ray& ray, double step) const;

@@ -88,22 +88,30 @@ struct As {
 /// The half vector's angles about a lobe's normal, as the lobes' arithmetic finds them of N, V and H.
 template <class Lobe>
 struct HalfAngles {
-  Lobe n_dot_h, sin2_theta_h, v_dot_h;
+  Lobe n_dot_h, sin2_theta_h;
 
   template <class Real>
-  HalfAngles(const LobeView<Real>& lobe, const Vec3<Real>& l) {
+  HalfAngles(const LobeView<Real>& lobe, const Vec3<Real>& l) : v_(As<Lobe>::vector(lobe.v)) {
     using brdf::inversesqrt;
     using brdf::max;
     using brdf::min;
     const Vec3<Real> sum = l + lobe.v;
     // L = -V has no half vector; there N.L <= 0, so any finite one serves.
-    const Vec3<Lobe> h = As<Lobe>::vector(sum * inversesqrt(max(dot(sum, sum), Real(1e-30))));
+    h_ = As<Lobe>::vector(sum * inversesqrt(max(dot(sum, sum), Real(1e-30))));
     const Vec3<Lobe> n = As<Lobe>::vector(lobe.n);
-    const Vec3<Lobe> sine = cross(n, h);
-    n_dot_h = min(max(dot(n, h), Lobe(0)), Lobe(1));
+    const Vec3<Lobe> sine = cross(n, h_);
+    n_dot_h = min(max(dot(n, h_), Lobe(0)), Lobe(1));
     sin2_theta_h = min(dot(sine, sine), Lobe(1));
-    v_dot_h = min(max(dot(As<Lobe>::vector(lobe.v), h), Lobe(0)), Lobe(1));
   }
+
+  Lobe v_dot_h() const {
+    using brdf::max;
+    using brdf::min;
+    return min(max(dot(v_, h_), Lobe(0)), Lobe(1));
+  }
+
+ private:
+  Vec3<Lobe> v_, h_;
 };
 
 /// The base of the physical model at one point, with what does not depend on the light found once.
@@ -185,7 +193,9 @@ class SheenLayer {
 template <class Real, class Lobe = Real>
 class CoatLayer {
  public:
-  CoatLayer(const Surface<Real>& surface, const Lighting& lighting)
+  /// @param surface  has position, view, coat_normal, clearcoat and coat_alpha as Surface has
+  template <class WithCoat>
+  CoatLayer(const WithCoat& surface, const Lighting& lighting)
       : view_(surface.coat_normal, surface.view),
         lobe_(As<Lobe>::number(surface.coat_alpha), As<Lobe>::number(view_.n_dot_v)),
         factors_(lighting.factors),
@@ -200,6 +210,7 @@ class CoatLayer {
     using brdf::any;
     using brdf::max;
     using brdf::min;
+    using brdf::select;
     const Real cosine = dot(view_.n, light.direction);
     const auto lit = cosine > Real(0);
     if (!any(lit)) {
@@ -209,7 +220,7 @@ class CoatLayer {
     const HalfAngles<Lobe> half(view_, light.direction);
     const Lobe lobe = lobe_.value(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h);
     part.coat_lobe = times(As<Real>::number(lobe), factors_.coat_lobe);
-    part.coat = keep_where(lit, light.irradiance * (weight_ * part.coat_lobe * n_dot_l));
+    part.coat = light.irradiance * select(lit, weight_ * part.coat_lobe * n_dot_l, Real(0));
   }
 
  private:
@@ -291,9 +302,9 @@ class BelowCoat {
   Color base_brdf(const Real& n_dot_l, const HalfAngles<Lobe>& half) const {
     if (physical_) {
       const auto albedo = AlbedoReader<Lobe>::ggx(*lighting_.ggx, As<Lobe>::number(n_dot_l), base_.material().alpha);
-      return As<Real>::color(physical_->brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
+      return As<Real>::color(physical_->brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h()));
     }
-    return As<Real>::color(base_.brdf(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h, half.v_dot_h));
+    return As<Real>::color(base_.brdf(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h, half.v_dot_h()));
   }
 
   Color through_coat(const Color& c) const { return layers_.clearcoat ? c * passed_ : c; }

@@ -99,6 +99,23 @@ TEST(LodBound, HoldsWhenANormalMapAndWhatItBendsArePickedTogether) {
   });
 }
 
+// Over black the coat's lobe is all there is; over white, far from its highlight, what its weight leaves of the base.
+TEST(LodBound, HoldsEveryLevelOfACoatsMapAlone) {
+  for (const double base : {0.0, 1.0}) {
+    scene::Scene s = tilted_cloth();
+    s.materials[0] = test::lambertian(glm::dvec4(base, base, base, 1.0));
+    s.materials[0].clearcoat.factor = 1.0;
+    s.materials[0].clearcoat.roughness_factor = base > 0.0 ? 0.02 : 0.3;
+    s.materials[0].clearcoat.normal_texture = add_noise(s, 8, 60, 200, 200);
+    if (base > 0.0) {
+      s.lights = {test::directional({1.0, 0.2, 0.1})};
+    }
+    hold_against_bound(s, [](const SurfaceReader& reader, const Hit& hit, const Ray& ray, const auto& level_in) {
+      return reader.surface(hit, ray, level_in(clearcoat_normal_slot));
+    });
+  }
+}
+
 // Two normal maps, each at a level of its own.
 TEST(LodBound, HoldsWhenTheCoatsMapAndTheBasesArePickedTogether) {
   scene::Scene s = tilted_cloth();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -20,10 +22,11 @@ glm::dvec3 direction(const glm::dvec4& code, double scale) {
   return (glm::dvec3(code) * 2.0 - 1.0) * glm::dvec3(scale, scale, 1.0);
 }
 
-double turn(const Spread& a, const Spread& b, double scale) {
+bool turns_far(const Spread& a, const Spread& b, double scale) {
   const glm::dvec3 from = direction(a.value, scale);
   const glm::dvec3 to = direction(b.value, scale);
-  return std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
+  static const double most = std::tan(widest_turn);
+  return !(glm::length(glm::cross(from, to)) <= most * glm::dot(from, to));
 }
 
 // Its length's reach counts like its direction's: what becomes of it when it is made unit is enclosed apart.
@@ -45,48 +48,68 @@ Spread hull(const Spread& a, const Spread& b) {
   return {0.5 * (low + high), (0.5 + 0x1p-50) * (high - low) + 0x1p-50 * glm::abs(low + high)};
 }
 
-// One piece, in one box or two.
-void add_piece(TextureBox& box, const LodInterval& piece, double scale, std::vector<Spread>& all) {
-  const Spread from = box(piece.low);
-  if (piece.high == piece.low) {
-    all.push_back(from);
-    return;
+/// Boxes of one piece after the other.
+class Pieces {
+ public:
+  Pieces(TextureBox& box, double scale) : box_(box), scale_(scale) {}
+
+  // In one box or two.
+  void add(const LodInterval& piece, std::vector<Spread>& all) {
+    const Spread from = piece.low == end_ ? at_end_ : box_(piece.low);
+    if (piece.high == piece.low) {
+      all.push_back(from);
+      return;
+    }
+    const Spread to = box_(piece.high);
+    if (turns_far(from, to, scale_)) {
+      const Spread between = box_(0.5 * (piece.low + piece.high));
+      all.push_back(hull(from, between));
+      all.push_back(hull(between, to));
+    } else {
+      all.push_back(hull(from, to));
+    }
+    end_ = piece.high;
+    at_end_ = to;
   }
-  const Spread to = box(piece.high);
-  if (turn(from, to, scale) <= widest_turn) {
-    all.push_back(hull(from, to));
-    return;
-  }
-  const Spread between = box(0.5 * (piece.low + piece.high));
-  all.push_back(hull(from, between));
-  all.push_back(hull(between, to));
-}
+
+ private:
+  TextureBox& box_;
+  double scale_;
+  // Of the last piece, where the next mostly begins.
+  double end_ = std::numeric_limits<double>::quiet_NaN();
+  Spread at_end_;
+};
 
 }  // namespace
 
 NormalLevels normal_levels(TextureBox& box, double ideal, const std::vector<LodInterval>& pieces, double scale) {
   NormalLevels out;
-  out.ideal = box(ideal);
-  std::vector<Spread> all;
-  for (const LodInterval& piece : pieces) {
-    add_piece(box, piece, scale, all);
-  }
-  Spread around = out.ideal;
-  for (const Spread& s : all) {
-    around = widened(around, s);
-  }
-  if (is_small(around, scale) || around.radius == out.ideal.radius) {
-    out.ideal = around;
+  if (pieces.empty()) {
+    out.boxes.push_back(box(ideal));
     return out;
   }
+  Pieces read(box, scale);
+  std::vector<Spread> all;
+  for (const LodInterval& piece : pieces) {
+    read.add(piece, all);
+  }
+  const Spread whole = std::accumulate(all.begin() + 1, all.end(), all.front(), hull);
+  if (is_small(whole, scale)) {
+    const Spread around = widened(box(ideal), whole);
+    if (is_small(around, scale)) {
+      out.boxes.push_back(around);
+      return out;
+    }
+  }
+  out.is_open = true;
   for (const Spread& s : all) {
-    if (!out.others.empty()) {
-      if (const Spread both = hull(out.others.back(), s); is_small(both, scale)) {
-        out.others.back() = both;
+    if (!out.boxes.empty()) {
+      if (const Spread both = hull(out.boxes.back(), s); is_small(both, scale)) {
+        out.boxes.back() = both;
         continue;
       }
     }
-    out.others.push_back(s);
+    out.boxes.push_back(s);
   }
   return out;
 }

@@ -7,10 +7,11 @@
 
 namespace sheen::golden {
 
-/// What a normal map may give, codes in [0, 1], at all levels of detail that a driver may read it at, in as few boxes as stay small.
+/// What a normal map may give, codes in [0, 1], at all levels of detail that a driver may read it at.
 struct NormalLevels {
-  Spread ideal;                ///< at the ideal level; where there are no others, of all levels
-  std::vector<Spread> others;  ///< together, all levels
+  /// Whether that is more than a small box about what it is at the ideal level, which alone is there otherwise.
+  bool is_open = false;
+  std::vector<Spread> boxes;  ///< together, all of it; as few as stay small
 };
 
 /// @param ideal   the specification's level

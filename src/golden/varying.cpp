@@ -19,15 +19,18 @@ double sum_of(const glm::dvec3& v) {
 
 Interpolation::Interpolation(const Geometry& geometry, const RayGenerator& rays, const Hit& hit, const Ray& ray, double step)
     : weights_(hit.weights), steps_x_(rays.width() / step), steps_y_(rays.height() / step) {
-  volumes_ = geometry.edge_volumes(hit.triangle, ray);
-  volumes_x_ = geometry.edge_volumes(hit.triangle, rays.through(ray.x + step, ray.y)) - volumes_;
-  volumes_y_ = geometry.edge_volumes(hit.triangle, rays.through(ray.x, ray.y + step)) - volumes_;
-  sum_ = sum_of(volumes_);
+  const glm::dvec3 volumes = geometry.edge_volumes(hit.triangle, ray);
+  volumes_x_ = geometry.edge_volumes(hit.triangle, rays.through(ray.x + step, ray.y)) - volumes;
+  volumes_y_ = geometry.edge_volumes(hit.triangle, rays.through(ray.x, ray.y + step)) - volumes;
+  const double sum = sum_of(volumes);
   sum_x_ = sum_of(volumes_x_);
   sum_y_ = sum_of(volumes_y_);
   const glm::dvec3 moved = glm::abs(volumes_x_) + glm::abs(volumes_y_);
   const double most = std::max({moved.x, moved.y, moved.z, std::abs(sum_x_) + std::abs(sum_y_)});
-  within_ = most < std::abs(sum_);
+  within_ = most < std::abs(sum);
+  per_sum_ = 1.0 / sum;
+  const double bend = (std::abs(sum_x_) + std::abs(sum_y_)) / std::abs(sum);
+  bent_ = bend / (1.0 - bend);
   if (!within_) {
     const std::vector<WindowPoint> polygon = window_polygon(geometry, rays, hit.triangle);
     for (const WindowPoint& corner : around(polygon, {ray.x, ray.y}, step, rays.camera().perspective)) {
@@ -86,10 +89,9 @@ Varying Interpolation::operator()(const std::array<double, 3>& f, double roundin
     v.radius += farthest;
     return v;
   }
-  v.shift_x = (glm::dot(volumes_x_, at) - v.value * sum_x_) / sum_;
-  v.shift_y = (glm::dot(volumes_y_, at) - v.value * sum_y_) / sum_;
-  const double bend = (std::abs(sum_x_) + std::abs(sum_y_)) / std::abs(sum_);
-  v.radius += (std::abs(v.shift_x) + std::abs(v.shift_y)) * bend / (1.0 - bend);
+  v.shift_x = (glm::dot(volumes_x_, at) - v.value * sum_x_) * per_sum_;
+  v.shift_y = (glm::dot(volumes_y_, at) - v.value * sum_y_) * per_sum_;
+  v.radius += (std::abs(v.shift_x) + std::abs(v.shift_y)) * bent_;
   v.radius += 4.0 * epsilon * (std::abs(v.shift_x) * steps_x_ + std::abs(v.shift_y) * steps_y_);
   return v;
 }

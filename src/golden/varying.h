@@ -34,8 +34,10 @@ class Interpolation {
   void add_corners(const Geometry& geometry, const RayGenerator& rays, const Hit& hit);
 
   glm::dvec3 weights_;
-  glm::dvec3 volumes_{0.0}, volumes_x_{0.0}, volumes_y_{0.0};  // edge functions at the sample, and their changes a step; affine in it
-  double sum_ = 0, sum_x_ = 0, sum_y_ = 0;
+  glm::dvec3 volumes_x_{0.0}, volumes_y_{0.0};  // what the edge functions, affine in the sample's place, change a step
+  double sum_x_ = 0, sum_y_ = 0;
+  double per_sum_ = 0;   // 1 over the sum of the volumes
+  double bent_ = 0;      // of a first-order change, what the exact one may be off
   bool within_ = false;  // whether the step is small beside the triangle and the horizon of its plane
   // Weights of the corners of what lies beyond the near plane, each times the depth here over its own; in perspective alone.
   std::array<glm::dvec3, 6> corners_{};

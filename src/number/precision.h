@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 // What the OpenGL ES Shading Language promises of floating-point arithmetic: GLSL ES 3.00.6, section 4.5.1 "Range and Precision", and
 // GLSL ES 3.20.5, section 4.7.1 of the same name. The table of operation precisions there is highp's:
@@ -92,6 +93,9 @@ constexpr double ulp(double x) {
 template <class Precision>
 bool is_representable(double x) {
   const double magnitude = std::abs(x);
+  if constexpr (largest_finite<Precision> == std::numeric_limits<float>::max()) {
+    return magnitude <= largest_finite<Precision> && static_cast<double>(static_cast<float>(x)) == x;
+  }
   if (magnitude >= smallest_normal<Precision> && magnitude <= largest_finite<Precision>) {
     constexpr std::uint64_t beyond = (std::uint64_t{1} << (52 - Precision::fraction_bits)) - 1;
     return (std::bit_cast<std::uint64_t>(x) & beyond) == 0;

@@ -21,14 +21,16 @@ class RangeBatch {
 
   RangeBatch() = default;
   /// A constant of the shader, in every lane.
-  explicit RangeBatch(double value) : lower_(static_cast<float>(value)), upper_(lower_) {
+  [[gnu::always_inline]] explicit RangeBatch(double value) : lower_(static_cast<float>(value)), upper_(lower_) {
     if (!is_representable<Highp>(value)) *this = rounded(lower_, upper_, correct_rounding, Sign::Kept);
   }
   /// In each lane what lies between the two; lost where neither is a number, which is so of both or of none.
   RangeBatch(const FloatBatch& lower, const FloatBatch& upper) : lower_(lower), upper_(upper) {}
   /// Of the first four lanes, and the last.
-  RangeBatch(const Bounds& first, const Bounds& last)
-      : lower_(outward(first.lower(), last.lower(), -1.0F)), upper_(outward(first.upper(), last.upper(), 1.0F)) {
+  RangeBatch(const Bounds& first, const Bounds& last) : RangeBatch(first.lower(), last.lower(), first.upper(), last.upper()) {}
+  /// What lies between ends in double: four lower ones and four more, and the upper ones; infinite of what is unbounded.
+  RangeBatch(const Batch& lower, const Batch& last_lower, const Batch& upper, const Batch& last_upper)
+      : lower_(outward(lower, last_lower, -1.0F)), upper_(outward(upper, last_upper, 1.0F)) {
     const FloatBatch beyond = lost(lower_) + lost(upper_);
     lower_ += beyond;
     upper_ += beyond;
@@ -61,14 +63,34 @@ class RangeBatch {
   friend RangeBatch operator-(const RangeBatch& a, const RangeBatch& b) {
     return rounded(a.lower_ - b.upper_, a.upper_ - b.lower_, correct_rounding, Sign::Kept);
   }
-  friend RangeBatch operator*(const RangeBatch& a, const RangeBatch& b) {
+  [[gnu::always_inline]] friend RangeBatch operator*(const RangeBatch& a, const RangeBatch& b) {
     if (&a == &b) {
       const RangeBatch size = abs(a);
       return rounded_positive(size.lower_ * size.lower_, size.upper_ * size.upper_);
     }
-    if (are_positive(a, b)) return rounded_positive(a.lower_ * b.lower_, a.upper_ * b.upper_);
-    const RangeBatch exact = product(a, b);
-    return rounded(exact.lower_, exact.upper_, correct_rounding, Sign::KeptBeyondZero);
+    return are_positive(a, b) ? rounded_positive(a.lower_ * b.lower_, a.upper_ * b.upper_) : rounded_product(a, b);
+  }
+  /// a b + c d + e f, in whatever order, the operations contracted or not: all roundings enclosed at once, as of the largest terms.
+  friend RangeBatch sum_of_products(const RangeBatch& a, const RangeBatch& b, const RangeBatch& c, const RangeBatch& d, const RangeBatch& e,
+                                    const RangeBatch& f) {
+    const RangeBatch p[3] = {product_of_any_sign(a, b), product_of_any_sign(c, d), product_of_any_sign(e, f)};
+    return summed(p[0].lower_ + p[1].lower_ + p[2].lower_, p[0].upper_ + p[1].upper_ + p[2].upper_,
+                  p[0].size() + p[1].size() + p[2].size());
+  }
+  /// a b - c d, likewise.
+  friend RangeBatch difference_of_products(const RangeBatch& a, const RangeBatch& b, const RangeBatch& c, const RangeBatch& d) {
+    const RangeBatch p[2] = {product_of_any_sign(a, b), product_of_any_sign(c, d)};
+    return summed(p[0].lower_ - p[1].upper_, p[0].upper_ - p[1].lower_, p[0].size() + p[1].size());
+  }
+  /// a a + b b + c c, likewise.
+  friend RangeBatch sum_of_squares(const RangeBatch& a, const RangeBatch& b, const RangeBatch& c) {
+    const RangeBatch size[3] = {abs(a), abs(b), abs(c)};
+    const auto squares = [](const FloatBatch& x, const FloatBatch& y, const FloatBatch& z) { return x * x + y * y + z * z; };
+    const FloatBatch upper = squares(size[0].upper_, size[1].upper_, size[2].upper_);
+    const FloatBatch room = xsimd::fma(upper + upper, FloatBatch(0.0F), FloatBatch(4 * flushed));
+    const FloatBatch lower = squares(size[0].lower_, size[1].lower_, size[2].lower_);
+    return {xsimd::max(FloatBatch(0.0F), xsimd::fms(lower, FloatBatch(1 - of_products), room)),
+            xsimd::fma(upper, FloatBatch(1 + of_products), room)};
   }
   friend RangeBatch operator/(const RangeBatch& a, const RangeBatch& b) {
     const RangeBatch size = abs(b);
@@ -134,6 +156,9 @@ class RangeBatch {
   // inversesqrt (2 ulp) and a sqrt (2 and 2.5 ulp): no more than 9, 2 for float's and 2 on the way.
   static constexpr float correct_rounding = 8 * 0x1p-24F;
   static constexpr float several_ulps = 16 * 0x1p-24F;
+  // Of up to three products and their sum, relative to the sum of the largest: 2 for each product, 4 for both sums; of float's, 1 and 2,
+  // and 2 on the way.
+  static constexpr float of_products = 16 * 0x1p-24F;
   /// More than a flush takes away, and float's own roundings of subnormal numbers.
   static constexpr float flushed = 0x1p-125F;
 
@@ -177,9 +202,31 @@ class RangeBatch {
 
   /// The ends of all products, each rounded by float.
   static RangeBatch product(const RangeBatch& a, const RangeBatch& b) {
-    if (are_positive(a, b)) return {a.lower_ * b.lower_, a.upper_ * b.upper_};
+    return are_positive(a, b) ? RangeBatch{a.lower_ * b.lower_, a.upper_ * b.upper_} : product_of_any_sign(a, b);
+  }
+  static RangeBatch product_of_any_sign(const RangeBatch& a, const RangeBatch& b) {
     const FloatBatch p[4] = {a.lower_ * b.lower_, a.lower_ * b.upper_, a.upper_ * b.lower_, a.upper_ * b.upper_};
     return {xsimd::min(xsimd::min(p[0], p[1]), xsimd::min(p[2], p[3])), xsimd::max(xsimd::max(p[0], p[1]), xsimd::max(p[2], p[3]))};
+  }
+
+  /// The largest that it may be, either way.
+  FloatBatch size() const { return xsimd::max(-lower_, upper_); }
+
+  /// Sums of products as float adds them up, after the operations' errors.
+  /// @param size  of the products' sizes
+  static RangeBatch summed(const FloatBatch& lower, const FloatBatch& upper, const FloatBatch& size) {
+    const FloatBatch room = xsimd::fma(size, FloatBatch(of_products), xsimd::fma(size + size, FloatBatch(0.0F), FloatBatch(4 * flushed)));
+    return {lower - room, upper + room};
+  }
+
+  [[gnu::noinline]] static RangeBatch rounded_product(const RangeBatch& a, const RangeBatch& b) {
+    const auto by_positive = [](const RangeBatch& x, const RangeBatch& size) -> RangeBatch {
+      return {xsimd::min(x.lower_ * size.lower_, x.lower_ * size.upper_), xsimd::max(x.upper_ * size.lower_, x.upper_ * size.upper_)};
+    };
+    const RangeBatch exact = !xsimd::any(is_negative(b.lower_))   ? by_positive(a, b)
+                             : !xsimd::any(is_negative(a.lower_)) ? by_positive(b, a)
+                                                                  : product_of_any_sign(a, b);
+    return rounded(exact.lower_, exact.upper_, correct_rounding, Sign::KeptBeyondZero);
   }
 
   /// Of a function of positive numbers.

@@ -67,11 +67,12 @@ RangeBatch range(double lower, double upper) {
 bool is_lost(const RangeBatch& x) {
   return xsimd::all(x.is_lost());
 }
-void expect_near(const RangeBatch& x, double lower, double upper) {
+/// @param rounded  the size of what is rounded, if not the ends
+void expect_near(const RangeBatch& x, double lower, double upper, double rounded = 0) {
   const auto range = x.bounds(1).lane(2).range();
   const double room = 32 * 0x1p-24;
-  EXPECT_NEAR(range.lower, lower, room * std::abs(lower));
-  EXPECT_NEAR(range.upper, upper, room * std::abs(upper));
+  EXPECT_NEAR(range.lower, lower, room * std::max(rounded, std::abs(lower)));
+  EXPECT_NEAR(range.upper, upper, room * std::max(rounded, std::abs(upper)));
 }
 
 TEST(RangeBatch, ReachesNoFartherThanOperandsDo) {
@@ -83,6 +84,11 @@ TEST(RangeBatch, ReachesNoFartherThanOperandsDo) {
   expect_near(range(-1, 3) * range(-2, 5), -6, 15);
   const RangeBatch x = range(-1, 3);
   expect_near(x * x, 0, 9);
+  expect_near(sum_of_products(range(1, 3), range(2, 5), range(1, 3), range(2, 5), range(1, 2), range(2, 3)), 6, 36, 36);
+  expect_near(sum_of_products(range(1, 3), range(2, 5), range(-1, 3), range(-2, 5), range(1, 2), range(-4, -3)), -12, 27, 38);
+  expect_near(difference_of_products(range(1, 3), range(2, 5), range(-1, 3), range(-2, 5)), -13, 21, 30);
+  expect_near(sum_of_squares(range(-1, 3), range(2, 3), range(-5, -4)), 20, 43);
+  EXPECT_EQ(sum_of_squares(x, x, x).bounds(0).lane(0).range().lower, 0);
   expect_near(range(1, 3) / range(2, 5), 0.2, 1.5);
   expect_near(range(-1, 3) / range(-5, -2), -1.5, 0.5);
   expect_near(max(range(-1, 3), range(0.5, 2)), 0.5, 3);
@@ -95,6 +101,42 @@ TEST(RangeBatch, ReachesNoFartherThanOperandsDo) {
   expect_near(select(range(1, 3) < range(2, 4), range(5, 6), range(7, 8)), 5, 8);
   expect_near(select(range(1, 2) <= range(2, 3), range(5, 6), range(7, 8)), 5, 6);
   expect_near(select(range(1, 2) > range(3, 4), range(5, 6), range(7, 8)), 7, 8);
+}
+
+// Against a shader that rounds every operation to either side.
+TEST(RangeBatch, EnclosesSumsOfProductsHoweverTheyAreRounded) {
+  if (!has_batch()) return;
+  std::mt19937_64 random(31);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto rounded = [&](double exact) {
+    const float nearest = static_cast<float>(exact);
+    const double other = static_cast<double>(nearest) > exact ? std::nextafter(nearest, -INFINITY) : std::nextafter(nearest, INFINITY);
+    const double either = nearest == exact || unit(random) > 0 ? nearest : other;
+    return std::abs(either) < smallest_normal<Highp> && unit(random) > 0 ? 0.0 : either;
+  };
+  for (int i = 0; i < 20000; ++i) {
+    // Of all sizes; exact numbers, narrow ranges, and such as hold 0.
+    RangeBatch of[6];
+    double in[6];
+    for (int k = 0; k < 6; ++k) {
+      const double center = static_cast<float>(std::ldexp(unit(random), static_cast<int>(i % 3 == 0 ? 60 * unit(random) - 30 : 2)));
+      const double radius = i % 2 == 0 ? 0 : std::abs(center) * std::exp2(8 * unit(random) - 8);
+      const auto lower = static_cast<float>(center - radius);
+      const auto upper = static_cast<float>(center + radius);
+      of[k] = range(lower, upper);
+      in[k] = unit(random) > 0 ? lower : upper;
+    }
+    const auto in_range = [](const RangeBatch& x, double value) {
+      const auto held = x.bounds(0).lane(1).range();
+      EXPECT_GE(value, held.lower);
+      EXPECT_LE(value, held.upper);
+    };
+    in_range(sum_of_products(of[0], of[1], of[2], of[3], of[4], of[5]),
+             rounded(rounded(rounded(in[0] * in[1]) + rounded(in[2] * in[3])) + rounded(in[4] * in[5])));
+    in_range(difference_of_products(of[0], of[1], of[2], of[3]), rounded(rounded(in[0] * in[1]) - rounded(in[2] * in[3])));
+    in_range(sum_of_squares(of[0], of[1], of[2]),
+             rounded(rounded(rounded(in[0] * in[0]) + rounded(in[1] * in[1])) + rounded(in[2] * in[2])));
+  }
 }
 
 TEST(RangeBatch, KeepsTheSignOfWhatIsRoundedCorrectly) {
@@ -115,6 +157,10 @@ TEST(RangeBatch, KeepsTheSignOfWhatIsRoundedCorrectly) {
 TEST(RangeBatch, LosesWhatLeavesTheFormatAndKeepsItLost) {
   if (!has_batch()) return;
   EXPECT_TRUE(is_lost(range(0x1p126, 0x1.1p126) * range(2, 3)));
+  const RangeBatch large = range(0x1p63, 0x1.8p63);
+  EXPECT_TRUE(is_lost(sum_of_products(large, large, large, large, large, large)));
+  EXPECT_TRUE(is_lost(difference_of_products(large, large, large, large)));
+  EXPECT_TRUE(is_lost(sum_of_squares(large, large, large)));
   EXPECT_TRUE(is_lost(range(1, 2) / range(-1, 1)));
   EXPECT_TRUE(is_lost(range(1, 2) / RangeBatch(0.0)));
   EXPECT_TRUE(is_lost(sqrt(range(-1, 1))));
@@ -138,6 +184,10 @@ TEST(RangeBatch, LosesWhatLeavesTheFormatAndKeepsItLost) {
     EXPECT_FALSE(is_lost(select(lost < other, other, other))) << "whichever is taken";
   }
   EXPECT_TRUE(is_lost(lost * lost));
+  const RangeBatch one(1.0);
+  EXPECT_TRUE(is_lost(sum_of_products(one, one, one, lost, one, one)));
+  EXPECT_TRUE(is_lost(difference_of_products(one, one, one, lost)));
+  EXPECT_TRUE(is_lost(sum_of_squares(one, lost, one)));
   Bounds mixed(Single::within(1, 0.1));
   mixed.set_lane(2, Single::unbounded(0));
   const RangeBatch lanes = RangeBatch(mixed, Bounds(1.0)) * range(1, 2);
