@@ -13,6 +13,7 @@
 #include "albedo/ggx_table.h"
 #include "albedo/sheen_model.h"
 #include "albedo/split_sum.h"
+#include "albedo/turns.h"
 #include "brdf/ggx.h"
 
 namespace sheen::albedo {
@@ -142,6 +143,40 @@ TEST(GgxInterpolant, HoldsAtItsCornersAndTakesAMirrorForOne) {
   EXPECT_EQ(interpolant(0.5, 0).loss, 0);
   EXPECT_EQ(interpolant(0.5, 0).bias, std::pow(0.5, 5));
   EXPECT_EQ(interpolant(0, 0.5).loss, interpolant(min_n_dot_v, 0.5).loss) << "cosines are floored";
+}
+
+TEST(GgxInterpolant, GivesCurvesOfOneAlphaToRounding) {
+  const GgxInterpolant interpolant;
+  for (const double alpha : {0.0, 1e-8, 3e-5, 1e-3, 0.04, 0.5, 1.0, 1.5}) {
+    const GgxCurve curve = interpolant.at_alpha(alpha);
+    for (int i = -1; i <= 500; ++i) {
+      const double mu = std::pow(10.0, -4.3 * i / 500);
+      const GgxAlbedo exact = interpolant(mu, alpha);
+      EXPECT_NEAR(curve(mu).loss, exact.loss, 1e-11 * exact.loss + 1e-15) << mu << ' ' << alpha;
+      EXPECT_NEAR(curve(mu).bias, exact.bias, 1e-11) << mu << ' ' << alpha;
+    }
+  }
+}
+
+TEST(Turns, AreWhereAFunctionTurns) {
+  const auto wave = [](double x) { return std::cos(std::log(x)); };
+  const Turns turns = turns_of(wave, 1e-8);
+  ASSERT_EQ(turns.count, 2U) << "at -pi and -2 pi of down to -9.2";
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double place = std::exp(-brdf::pi * (i == 0 ? 2 : 1));
+    EXPECT_LT(turns.turn[i].from, place);
+    EXPECT_GT(turns.turn[i].to, place);
+    EXPECT_LT(turns.turn[i].to, 1.1 * turns.turn[i].from);
+    EXPECT_LE(turns.turn[i].lowest, wave(place));
+    EXPECT_GE(turns.turn[i].highest, wave(place));
+    EXPECT_LT(turns.turn[i].highest - turns.turn[i].lowest, 1e-3);
+  }
+  EXPECT_EQ(turns_of([](double x) { return x + 1e-10 * std::sin(50 * x); }, 1e-8).count, 0U);
+  const Turns many = turns_of([](double x) { return std::cos(8 * std::log(x)); }, 1e-8);
+  ASSERT_EQ(many.count, Turns::most);
+  EXPECT_GT(many.turn[Turns::most - 1].to, 0.6);
+  EXPECT_LE(many.turn[Turns::most - 1].lowest, -1.0);
+  EXPECT_GE(many.turn[Turns::most - 1].highest, 1.0);
 }
 
 TEST(GgxInterpolant, MakesNoNumberOfWhatIsNone) {

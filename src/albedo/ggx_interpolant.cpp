@@ -15,10 +15,10 @@
 namespace sheen::albedo {
 namespace {
 
-constexpr int nodes = 9;           // a side of a patch
-constexpr double patch_x = 0.66;   // of ln T
-constexpr double patch_y = 1.0;    // of ln alpha
-constexpr int patches_x = 16;      // down to n_dot_v = 5e-5
+constexpr int nodes = GgxCurve::nodes;  // a side of a patch
+constexpr double patch_x = GgxCurve::patch_x;
+constexpr double patch_y = 1.0;  // of ln alpha
+constexpr int patches_x = GgxCurve::patches;
 constexpr int patches_y = 19;      // down to alpha = 5.6e-9
 constexpr double accepted = 3e-7;  // relative error of the loss, absolute error of the bias
 
@@ -60,6 +60,19 @@ struct Patch {
   std::once_flag made;
   bool usable = false;
   std::array<Line, nodes> rows;
+
+  // Values at the nodes of x for one y.
+  Line row(double t_y) const {
+    const Nodes sy = Rule1D::instance().shares(t_y);
+    Line values{};
+    for (int j = 0; j < nodes; ++j) {
+      for (int i = 0; i < nodes; ++i) {
+        values.log_loss[i] += sy[j] * rows[j].log_loss[i];
+        values.bias[i] += sy[j] * rows[j].bias[i];
+      }
+    }
+    return values;
+  }
 
   Pair at(double t_x, double t_y) const {
     const Nodes sx = Rule1D::instance().shares(t_x);
@@ -107,6 +120,12 @@ struct GgxInterpolant::Impl {
     }
   }
 
+  const Patch& patch(int ix, int iy) {
+    Patch& patch = patches[iy][ix];
+    std::call_once(patch.made, [&] { make(patch, ix, iy); });
+    return patch;
+  }
+
   static void make(AveragePatch& patch, int iy) {
     const auto exact = [&](double t) { return pair_of(ggx_average_albedo(std::exp(coordinate(patch_y, iy, t)))); };
     for (int i = 0; i < nodes; ++i) {
@@ -134,9 +153,34 @@ GgxAlbedo GgxInterpolant::operator()(double n_dot_v, double alpha) const {
   }
   const double u = std::log(half_elevation_tangent(mu)) / -patch_x, v = std::log(std::min(alpha, 1.0)) / -patch_y;  // in patches
   const int ix = std::min(static_cast<int>(u), patches_x - 1), iy = std::min(static_cast<int>(v), patches_y - 1);
-  Patch& patch = impl_->patches[iy][ix];
-  std::call_once(patch.made, [&] { Impl::make(patch, ix, iy); });
+  const Patch& patch = impl_->patch(ix, iy);
   return patch.usable ? albedo_of(patch.at(1 - 2 * (u - ix), 1 - 2 * (v - iy))) : ggx_albedo(mu, alpha);
+}
+
+GgxCurve GgxInterpolant::at_alpha(double alpha) const {
+  GgxCurve curve(*this, alpha);
+  if (!(alpha > mirror_alpha)) {
+    curve.usable_ = false;  // it is simple enough
+    return curve;
+  }
+  const double v = std::log(std::min(alpha, 1.0)) / -patch_y;
+  const int iy = std::min(static_cast<int>(v), patches_y - 1);
+  for (int ix = 0; ix < patches_x; ++ix) {
+    const Patch& patch = impl_->patch(ix, iy);
+    curve.usable_ = curve.usable_ && patch.usable;
+    const Line values = patch.row(1 - 2 * (v - iy));
+    for (int power = 0; power < nodes; ++power) {
+      for (int i = 0; i < nodes; ++i) {
+        curve.log_loss_[ix][power] += Rule1D::instance().powers[power][i] * values.log_loss[i];
+        curve.bias_[ix][power] += Rule1D::instance().powers[power][i] * values.bias[i];
+      }
+    }
+  }
+  return curve;
+}
+
+GgxAlbedo GgxCurve::slowly(double n_dot_v) const {
+  return (*interpolant_)(n_dot_v, alpha_);
 }
 
 GgxAlbedo GgxInterpolant::average(double alpha) const {

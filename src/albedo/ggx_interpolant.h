@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "albedo/ggx_albedo.h"
+#include "albedo/ggx_curve.h"
 
 namespace sheen::albedo {
 
@@ -19,6 +20,8 @@ class GgxInterpolant {
   /// ggx_albedo; cosines below min_n_dot_v count as min_n_dot_v, of light and of view alike, so that what is built of it stays reciprocal.
   /// Of what is no number it makes none.
   GgxAlbedo operator()(double n_dot_v, double alpha) const;
+  /// The same at one alpha, for any number type. This must outlive it.
+  GgxCurve at_alpha(double alpha) const;
   /// ggx_average_albedo.
   GgxAlbedo average(double alpha) const;
 

@@ -26,36 +26,6 @@ const Rule1D& chebyshev() {
   return Rule1D::instance();
 }
 
-// From values at the nodes to the coefficients of the powers of t: the Chebyshev coefficients by their discrete orthogonality, then
-// T_k+1 = 2 t T_k - T_k-1. At degree 11 powers lose four digits of sixteen.
-const std::array<Nodes, nodes>& powers_from_values() {
-  static const std::array<Nodes, nodes> matrix = [] {
-    std::array<Nodes, nodes> m{};
-    Nodes before{};  // the powers in T_k-1 and T_k
-    Nodes current{};
-    current[0] = 1;
-    for (int k = 0; k < nodes; ++k) {
-      for (int i = 0; i < nodes; ++i) {
-        const double share = (k == 0 ? 1.0 : 2.0) / nodes * std::cos(brdf::pi * k * (i + 0.5) / nodes);
-        for (int power = 0; power < nodes; ++power) {
-          m[power][i] += current[power] * share;
-        }
-      }
-      Nodes next{};
-      for (int power = 0; power + 1 < nodes; ++power) {
-        next[power + 1] = (k == 0 ? 1.0 : 2.0) * current[power];
-      }
-      for (int power = 0; power < nodes; ++power) {
-        next[power] -= before[power];
-      }
-      before = current;
-      current = next;
-    }
-    return m;
-  }();
-  return matrix;
-}
-
 struct Patch {
   std::once_flag made;
   bool usable = false;
@@ -221,7 +191,7 @@ Curve Interpolant::at_roughness(double sheen_roughness) const {
     const Nodes values = patch.row(1 - 2 * (v - iy));
     for (int power = 0; power < nodes; ++power) {
       for (int i = 0; i < nodes; ++i) {
-        curve.powers_[ix][power] += powers_from_values()[power][i] * values[i];
+        curve.powers_[ix][power] += chebyshev().powers[power][i] * values[i];
       }
     }
   }

@@ -6,7 +6,9 @@
 #include "albedo/ggx_interpolant.h"
 #include "albedo/interpolant.h"
 #include "albedo/peak.h"
+#include "albedo/turns.h"
 #include "brdf/multiple_scattering.h"
+#include "golden/bound.h"
 #include "number/lanes.h"
 
 namespace sheen::golden {
@@ -26,6 +28,24 @@ struct SheenAlbedo {
   const albedo::Curve* curve = nullptr;              ///< at the roughness of one surface under many lights
   const AlbedoAround* around = nullptr;              ///< at the one roughness of all surfaces, for number types that have ranges
 };
+
+/// Albedo of the GGX lobe at the one alpha of a material, of which a shader may hold what lies a little off.
+struct GgxAround {
+  albedo::GgxCurve at;
+  albedo::Turns loss, bias;
+  double share;  ///< between the ends of what a shader may hold of alpha, relative to it
+  brdf::LobeAlbedo<Bound> average;
+};
+
+/// Where it comes from: only of the physical model.
+struct BaseAlbedo {
+  const albedo::GgxInterpolant* interpolant = nullptr;
+  const GgxAround* around = nullptr;  ///< where all surfaces have one alpha, for number types that have ranges
+};
+
+/// With its alpha, by this much for each share of it, the loss changes at the most; the bias likewise, absolutely
+/// (bounded_albedo_test.cpp).
+inline constexpr double changes_with_alpha = 4;
 
 /// A range of cosines that is wider than this share of its centre is wide: over it an albedo may bend one way and the other.
 inline constexpr double wide_cosines = 1.0 / 16;
@@ -58,12 +78,12 @@ struct AlbedoReader {
   }
 
   /// Albedo of the GGX lobe at a cosine.
-  static brdf::LobeAlbedo<Real> ggx(const albedo::GgxInterpolant& ggx, const Real& cosine, const Real& alpha) {
-    return each([&ggx](double c, double a) { return ggx(c, a); }, cosine, alpha);
+  static brdf::LobeAlbedo<Real> ggx(const BaseAlbedo& albedo, const Real& cosine, const Real& alpha) {
+    return each([&](double c, double a) { return (*albedo.interpolant)(c, a); }, cosine, alpha);
   }
   /// Its average over the hemisphere.
-  static brdf::LobeAlbedo<Real> ggx_average(const albedo::GgxInterpolant& ggx, const Real& alpha) {
-    return each([&ggx](double, double a) { return ggx.average(a); }, alpha, alpha);
+  static brdf::LobeAlbedo<Real> ggx_average(const BaseAlbedo& albedo, const Real& alpha) {
+    return each([&](double, double a) { return albedo.interpolant->average(a); }, alpha, alpha);
   }
 
  private:

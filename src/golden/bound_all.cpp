@@ -1,5 +1,7 @@
 #include "golden/bound_all.h"
 
+#include <algorithm>
+
 #include "golden/bounded_albedo.h"
 #include "golden/bounded_mediump.h"
 #include "number/bounded_functions.h"
@@ -13,13 +15,13 @@ auto OneAlbedo<Precision>::sheen(const SheenAlbedo& albedo, const B& cosine, con
 }
 
 template <class Precision>
-auto OneAlbedo<Precision>::ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha) -> brdf::LobeAlbedo<B> {
-  return AlbedoReader<B>::ggx(ggx, cosine, alpha);
+auto OneAlbedo<Precision>::ggx(const BaseAlbedo& albedo, const B& cosine, const B& alpha) -> brdf::LobeAlbedo<B> {
+  return AlbedoReader<B>::ggx(albedo, cosine, alpha);
 }
 
 template <class Precision>
-auto OneAlbedo<Precision>::ggx_average(const albedo::GgxInterpolant& ggx, const B& alpha) -> brdf::LobeAlbedo<B> {
-  return AlbedoReader<B>::ggx_average(ggx, alpha);
+auto OneAlbedo<Precision>::ggx_average(const BaseAlbedo& albedo, const B& alpha) -> brdf::LobeAlbedo<B> {
+  return AlbedoReader<B>::ggx_average(albedo, alpha);
 }
 
 template struct OneAlbedo<number::Highp>;
@@ -31,6 +33,17 @@ AlbedoAround albedo_around(const albedo::Interpolant& albedo, const Bound& sheen
     return {curve, albedo::peak_of(curve, 16)};
   };
   return {at(sheen_roughness.range().lower), at(sheen_roughness.center()), at(sheen_roughness.range().upper)};
+}
+
+GgxAround ggx_around(const albedo::GgxInterpolant& ggx, const Bound& alpha) {
+  const albedo::GgxCurve at = ggx.at_alpha(alpha.center());
+  constexpr double negligible = 1e-8;
+  const number::Range& range = alpha.range();
+  // Of what counts as a mirror nothing is lost, nor of alphas a little larger.
+  const double share = (range.upper - range.lower) / std::max(alpha.center(), albedo::mirror_alpha);
+  return {at, albedo::turns_of([&at](double c) { return at(c).loss; }, negligible),
+          albedo::turns_of([&at](double c) { return at(c).bias; }, negligible), share,
+          AlbedoReader<Bound>::ggx_average({&ggx, nullptr}, alpha)};
 }
 
 void bound_all_scalar(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {

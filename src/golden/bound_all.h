@@ -15,14 +15,16 @@ template <class Precision>
 struct OneAlbedo {
   using B = number::Bounded<Precision>;
   static B sheen(const SheenAlbedo& albedo, const B& cosine, const B& sheen_roughness);
-  static brdf::LobeAlbedo<B> ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha);
-  static brdf::LobeAlbedo<B> ggx_average(const albedo::GgxInterpolant& ggx, const B& alpha);
+  static brdf::LobeAlbedo<B> ggx(const BaseAlbedo& albedo, const B& cosine, const B& alpha);
+  static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const B& alpha);
 };
 extern template struct OneAlbedo<number::Highp>;
 extern template struct OneAlbedo<number::Mediump>;
 
 /// E about one roughness.
 AlbedoAround albedo_around(const albedo::Interpolant& albedo, const Bound& sheen_roughness);
+/// Albedo of the GGX lobe about one alpha.
+GgxAround ggx_around(const albedo::GgxInterpolant& ggx, const Bound& alpha);
 
 /// Surfaces in view space whose radiance is wanted on number::Bounded; all have the same layers.
 struct BoundJob {

@@ -107,8 +107,18 @@ TEST(BoundAll, BatchesOfThePhysicalModelAgreeWithOneAtATime) {
   Lighting lighting;
   lighting.lights = c.lights.data();
   lighting.light_count = c.lights.size();
-  lighting.ggx = &ggx;
+  lighting.base_albedo.interpolant = &ggx;
   c.compare(lighting, Precision::Highp, {false, false});
+  EXPECT_GT(c.bounded, 50);
+  const Bound alpha = Bound(0.4) * Bound(0.4);
+  for (Surface<Bound>& s : c.surfaces) {
+    s.base.alpha = alpha;
+  }
+  const GgxAround around = ggx_around(ggx, alpha);
+  lighting.base_albedo.around = &around;
+  c.bounded = 0;
+  c.compare(lighting, Precision::Highp, {false, false});
+  c.compare(lighting, Precision::Mediump, {false, false});
   EXPECT_GT(c.bounded, 50);
 }
 
@@ -180,7 +190,7 @@ TEST(BoundAll, BatchesHoldSurfacesOfOpenNormals) {
     lighting.light_count = c.lights.size();
     lighting.albedo.interpolant = &e;
     lighting.albedo.around = kind == 1 ? &around : nullptr;
-    lighting.ggx = physical ? &ggx : nullptr;
+    lighting.base_albedo.interpolant = physical ? &ggx : nullptr;
     const Layers layers{!physical, !physical};
     std::vector<brdf::Rgb<Bound>> one(c.surfaces.size());
     bound_all_scalar({c.surfaces.data(), order.data(), order.size(), layers, Precision::Highp}, lighting, one.data());

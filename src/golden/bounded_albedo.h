@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "albedo/ggx_table.h"
 #include "albedo/lookup_error.h"
@@ -57,11 +59,14 @@ struct AlbedoReader<number::Bounded<Precision>> {
     return smaller ? e_v : read();
   }
 
-  static brdf::LobeAlbedo<B> ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha) {
-    return lobe([&ggx](double c, double a) { return ggx(c, a); }, cosine, alpha);
+  static brdf::LobeAlbedo<B> ggx(const BaseAlbedo& albedo, const B& cosine, const B& alpha) {
+    if (albedo.around != nullptr) {
+      return about(*albedo.around, cosine, alpha);
+    }
+    return lobe([&](double c, double a) { return (*albedo.interpolant)(c, a); }, cosine, alpha);
   }
-  static brdf::LobeAlbedo<B> ggx_average(const albedo::GgxInterpolant& ggx, const B& alpha) {
-    return lobe([&ggx](double, double a) { return ggx.average(a); }, B(1), alpha);
+  static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const B& alpha) {
+    return lobe([&](double, double a) { return albedo.interpolant->average(a); }, B(1), alpha);
   }
 
  private:
@@ -198,23 +203,92 @@ struct AlbedoReader<number::Bounded<Precision>> {
   /// Of the same ratio each. @param place  from 0 to 1
   static double between(double lower, double upper, double place) { return lower * std::pow(upper / lower, place); }
 
+  /// An albedo that is asked at the same places twice, in the same order, and found once.
+  template <class Albedo>
+  class Once {
+   public:
+    explicit Once(const Albedo& albedo) : albedo_(albedo) {}
+
+    void begin() { next_ = 0; }
+    brdf::LobeAlbedo<double> operator()(double c, double a) {
+      if (next_ < found_ && places_[next_].c == c && places_[next_].a == a) {
+        return places_[next_++].albedo;
+      }
+      const brdf::LobeAlbedo<double> there = albedo_(c, a);
+      if (next_ == found_ && found_ < places_.size()) {
+        places_[found_++] = {c, a, there};
+        next_ = found_;
+      }
+      return there;
+    }
+
+   private:
+    struct Place {
+      double c, a;
+      brdf::LobeAlbedo<double> albedo;
+    };
+    const Albedo& albedo_;
+    std::array<Place, 256> places_;
+    std::size_t found_ = 0, next_ = 0;
+  };
+
+  // The shader's table holds the logarithms of loss and scale; its bias is what they leave of 1.
+  static double loss_error(double loss) { return albedo::ggx_table_error * loss; }
+  static double bias_error() { return albedo::ggx_table_error; }
+
+  /// @param albedo  of a cosine and an alpha
   template <class Albedo>
   static brdf::LobeAlbedo<B> lobe(const Albedo& albedo, const B& cosine, const B& alpha) {
-    const auto loss = [&albedo](double c, double a) { return albedo(c, a).loss; };
-    const auto bias = [&albedo](double c, double a) { return albedo(c, a).bias; };
-    // The shader's table holds the logarithms of loss and scale; its bias is what they leave of 1.
-    const auto of_loss = [](double value, double, double) { return albedo::ggx_table_error * value; };
-    const auto of_bias = [](double, double, double) { return albedo::ggx_table_error; };
-    const auto of = [&](const auto& f, const auto& error) {
+    const double lower = std::max(cosine.range().lower, albedo::min_n_dot_v);
+    const double upper = std::max(cosine.range().upper, lower);
+    // Either bends over a logarithm of the cosine of 1.
+    const int steps = 2 + (std::isfinite(upper) ? static_cast<int>(4 * std::log(upper / lower)) : 0);
+    const bool is_wide_alpha = is_wide_roughness(alpha);
+    const double changes = changes_with_alpha * (alpha.range().upper / std::max(alpha.range().lower, albedo::mirror_alpha) - 1);
+    Once<Albedo> once(albedo);
+    const auto of = [&](double brdf::LobeAlbedo<double>::*member, const auto& size, const auto& error) {
+      once.begin();
+      const auto f = [&](double c, double a) { return once(c, a).*member; };
       const auto at = at_ends(f, alpha);
       const auto turn = [&](End end, const auto& include) {
-        const double lower = std::max(cosine.range().lower, albedo::min_n_dot_v);
-        const double upper = std::max(cosine.range().upper, lower);
-        include_between([&](double place) { return at(between(lower, upper, place), end); }, 32, include);
+        if (!is_wide_alpha && end != End::Center) {
+          return;
+        }
+        const double more = is_wide_alpha ? 0.0 : changes;
+        include_between([&](double place) { return at(between(lower, upper, place), end); }, steps,
+                        [&](double there) {
+                          include(there + more * size(there));
+                          include(std::max(0.0, there - more * size(there)));
+                        });
       };
       return read(at, f, turn, true, error, cosine, alpha);
     };
-    return {of(loss, of_loss), of(bias, of_bias)};
+    const auto loss = of(
+        &brdf::LobeAlbedo<double>::loss, [](double there) { return there; },
+        [](double there, double, double) { return loss_error(there); });
+    const auto bias = of(
+        &brdf::LobeAlbedo<double>::bias, [](double) { return 1.0; }, [](double, double, double) { return bias_error(); });
+    return {loss, bias};
+  }
+
+  /// At one alpha; what others change of it is an error.
+  static brdf::LobeAlbedo<B> about(const GgxAround& around, const B& cosine, const B& alpha) {
+    const double changes = changes_with_alpha * around.share;
+    const auto of = [&](const auto& f, const albedo::Turns& turns, const auto& error) {
+      const auto turn = [&](End, const auto& include) {
+        for (std::size_t i = 0; i < turns.count; ++i) {
+          if (cosine.range().lower < turns.turn[i].to && turns.turn[i].from < cosine.range().upper) {
+            include(turns.turn[i].lowest);
+            include(turns.turn[i].highest);
+          }
+        }
+      };
+      const B one_alpha = alpha.is_bounded() ? B(1) : alpha;
+      return read([&f](double c, End) { return f(c); }, [&f](double c, double) { return f(c); }, turn, true, error, cosine, one_alpha);
+    };
+    return {of([&](double c) { return around.at(c).loss; }, around.loss,
+               [&](double loss, double, double) { return loss_error(loss) + changes * loss; }),
+            of([&](double c) { return around.at(c).bias; }, around.bias, [&](double, double, double) { return bias_error() + changes; })};
   }
 };
 

@@ -98,7 +98,7 @@ TEST(BoundedAlbedo, HoldsThePhysicalModels) {
   for (int i = 0; i < 300 && !HasFailure(); ++i) {
     const Bound cosine = some_range(albedo::min_n_dot_v, random);
     const Bound alpha = some_range(1e-3, random);
-    const brdf::LobeAlbedo<Bound> bound = Reader::ggx(ggx, cosine, alpha);
+    const brdf::LobeAlbedo<Bound> bound = Reader::ggx({&ggx, nullptr}, cosine, alpha);
     for (int c = 0; c <= places; ++c) {
       for (int r = 0; r <= places; r += 4) {
         const brdf::LobeAlbedo<double> exact = ggx(at(cosine, 1.0 * c / places), at(alpha, 1.0 * r / places));
@@ -107,6 +107,55 @@ TEST(BoundedAlbedo, HoldsThePhysicalModels) {
       }
     }
   }
+}
+
+// Of alphas that a shader may hold of one roughness, and of some farther off.
+TEST(BoundedAlbedo, HoldsThePhysicalModelsAboutOneAlpha) {
+  std::mt19937 random(8);
+  const albedo::GgxInterpolant ggx;
+  for (const double roughness : {0.0, 0.01, 0.03, 0.1, 0.3, 0.6, 1.0}) {
+    for (const double reach : {0x1p-23, 1e-3}) {
+      const Bound alpha = Bound::within(roughness * roughness, reach * roughness * roughness);
+      const GgxAround around = ggx_around(ggx, alpha);
+      int narrow = 0;
+      for (int i = 0; i < 100 && !HasFailure(); ++i) {
+        const Bound cosine = some_range(albedo::min_n_dot_v, random);
+        const brdf::LobeAlbedo<Bound> bound = Reader::ggx({&ggx, &around}, cosine, alpha);
+        for (int c = 0; c <= places; ++c) {
+          for (const double end : {0.0, 1.0}) {
+            const brdf::LobeAlbedo<double> exact = ggx(at(cosine, 1.0 * c / places), std::min(at(alpha, end), 1.0));
+            expect_held(bound.loss, exact.loss, albedo::ggx_table_error * exact.loss, cosine, alpha);
+            expect_held(bound.bias, exact.bias, albedo::ggx_table_error, cosine, alpha);
+          }
+        }
+        if (cosine.range().upper < 1.01 * cosine.range().lower && reach < 1e-6) {
+          EXPECT_LE(bound.bias.deviation() - std::abs(bound.bias.shift_x()), 0.02) << "and hardly more";
+          ++narrow;
+        }
+      }
+      EXPECT_TRUE(narrow > 5 || reach > 1e-6);
+    }
+  }
+}
+
+TEST(BoundedAlbedo, OfThePhysicalModelChangeNoMoreWithAlphaThanIsCounted) {
+  const albedo::GgxInterpolant ggx;
+  double loss = 0;
+  double bias = 0;
+  for (int a = 0; a < 120; ++a) {
+    const double alpha = std::pow(10.0, -8 * a / 120.0);
+    for (int c = 0; c <= 60; ++c) {
+      const double cosine = std::pow(10.0, -4 * c / 60.0);
+      const double share = 0.01;
+      const auto here = ggx(cosine, alpha);
+      const auto there = ggx(cosine, alpha * (1 - share));
+      loss = std::max(loss, std::abs(there.loss / here.loss - 1) / share);
+      bias = std::max(bias, std::abs(there.bias - here.bias) / share);
+    }
+  }
+  EXPECT_LT(loss, changes_with_alpha);
+  EXPECT_GT(loss, 1.5) << "and the figure is not beside the matter";
+  EXPECT_LT(bias, changes_with_alpha);
 }
 
 }  // namespace

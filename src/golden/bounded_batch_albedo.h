@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
+#include "albedo/ggx_table.h"
 #include "albedo/lookup_error.h"
 #include "golden/bound_all.h"
 #include "number/affine_batch.h"
@@ -22,7 +24,7 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     B e(0.0);
     number::BatchMask open(true);
     if (albedo.around != nullptr) {
-      read(*albedo.around, cosine, sheen_roughness, e);
+      e = read(*albedo.around, cosine, sheen_roughness);
       open = cosine.is_unbounded();
     }
     for (std::size_t i = 0; i < B::lanes; ++i) {
@@ -45,11 +47,34 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     return e;
   }
 
-  static brdf::LobeAlbedo<B> ggx(const albedo::GgxInterpolant& ggx, const B& cosine, const B& alpha) {
-    return each([&ggx](const One& c, const One& a) { return OneAlbedo<Precision>::ggx(ggx, c, a); }, cosine, alpha);
+  static brdf::LobeAlbedo<B> ggx(const BaseAlbedo& albedo, const B& cosine, const B& alpha) {
+    const auto one = [&albedo](const One& c, const One& a) { return OneAlbedo<Precision>::ggx(albedo, c, a); };
+    if (albedo.around == nullptr || xsimd::any(cosine.is_unbounded() | alpha.is_unbounded())) {
+      return each(one, cosine, alpha);
+    }
+    const GgxAround& around = *albedo.around;
+    const auto at = around.at(cosine.center());
+    const auto low = around.at(cosine.lower());
+    const auto high = around.at(cosine.upper());
+    const double changes = albedo::ggx_table_error + changes_with_alpha * around.share;
+    Reading loss(cosine, at.loss, low.loss, high.loss);
+    loss.bend_within(number::BatchMask(true));
+    loss.turn(around.loss);
+    Reading bias(cosine, at.bias, low.bias, high.bias);
+    bias.bend_within(number::BatchMask(true));
+    bias.turn(around.bias);
+    return {loss.made(number::Batch(changes) * loss.highest * loss.growth()), bias.made(number::Batch(changes) * bias.growth())};
   }
-  static brdf::LobeAlbedo<B> ggx_average(const albedo::GgxInterpolant& ggx, const B& alpha) {
-    return each([&ggx](const One&, const One& a) { return OneAlbedo<Precision>::ggx_average(ggx, a); }, alpha, alpha);
+  static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const B& alpha) {
+    return each(
+        [&albedo](const One&, const One& a) {
+          if constexpr (std::is_same_v<Precision, number::Highp>) {
+            return albedo.around != nullptr && a.is_bounded() ? albedo.around->average : OneAlbedo<Precision>::ggx_average(albedo, a);
+          } else {
+            return OneAlbedo<Precision>::ggx_average(albedo, a);
+          }
+        },
+        alpha, alpha);
   }
 
  private:
@@ -64,50 +89,94 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     return albedo;
   }
 
-  /// AlbedoReader<One>::read, in lanes that are bounded.
-  static void read(const AlbedoAround& around, const B& cosine, const B& roughness, B& e) {
+  /// AlbedoReader<One>::read, in lanes that are bounded: what an albedo is over the cosines.
+  struct Reading {
+    B cosine;
+    number::Batch value, slope, lowest, highest, remainder, bend;
+    number::BatchMask wide;
+
+    /// Of its values at the centre and at the ends.
+    Reading(const B& of, const number::Batch& at_center, const number::Batch& at_lower, const number::Batch& at_upper)
+        : cosine(of), value(at_center), wide(width() > number::Batch(wide_cosines) * of.center()) {
+      slope = select((width() > number::Batch(0.0)) & ~wide, (at_upper - at_lower) / width(), number::Batch(0.0));
+      lowest = xsimd::min(value, xsimd::min(at_lower, at_upper));
+      highest = xsimd::max(value, xsimd::max(at_lower, at_upper));
+      remainder = xsimd::max(left(at_lower, of.lower()), left(at_upper, of.upper()));
+      bend = remainder;
+    }
+
+    number::Batch width() const { return cosine.upper() - cosine.lower(); }
+    number::Batch left(const number::Batch& there, const number::Batch& at) const {
+      return xsimd::abs(there - value - slope * (at - cosine.center()));
+    }
+
+    /// What it is at another roughness too.
+    void include(const number::Batch& at_center, const number::Batch& at_lower, const number::Batch& at_upper) {
+      remainder = xsimd::max(remainder, left(at_center, cosine.center()));
+      lowest = xsimd::min(lowest, xsimd::min(at_lower, at_upper));
+      highest = xsimd::max(highest, xsimd::max(at_lower, at_upper));
+      remainder = xsimd::max(remainder, xsimd::max(left(at_lower, cosine.lower()), left(at_upper, cosine.upper())));
+    }
+
+    /// Where it may turn within narrow ranges of these lanes.
+    void bend_within(const number::BatchMask& lanes) {
+      highest = select(lanes & ~wide, highest + bend, highest);
+      lowest = select(lanes & ~wide, xsimd::max(number::Batch(0.0), lowest - bend), lowest);
+    }
+
+    /// Where wide ranges hold places between these.
+    void turn(double from, double to, double least, double most) {
+      const number::BatchMask turns = wide & (cosine.lower() < number::Batch(to)) & (number::Batch(from) < cosine.upper());
+      highest = select(turns, xsimd::max(highest, number::Batch(most)), highest);
+      lowest = select(turns, xsimd::min(lowest, number::Batch(least)), lowest);
+    }
+    void turn(const albedo::Turns& all) {
+      for (std::size_t i = 0; i < all.count && xsimd::any(wide); ++i) {
+        turn(all.turn[i].from, all.turn[i].to, all.turn[i].lowest, all.turn[i].highest);
+      }
+    }
+
+    /// Of errors over a narrow range, which change by less than four times the share that the cosine does.
+    number::Batch growth() const {
+      const number::Batch share = width() / xsimd::max(cosine.center(), number::Batch(albedo::min_n_dot_v));
+      return number::Batch(1.0) + number::Batch(4.0) * select(wide, number::Batch(0.0), share);
+    }
+
+    /// @param off  of what a shader reads
+    B made(const number::Batch& off) const {
+      const number::Batch rest = select(wide, xsimd::max(highest - value, value - lowest), remainder);
+      B made(0.0);
+      made.round({value, slope * cosine.shift_x(), slope * cosine.shift_y(), xsimd::abs(slope) * cosine.radius() + rest, lowest, highest},
+                 B::Error::absolute(0, off), true);
+      return made;
+    }
+  };
+
+  static B read(const AlbedoAround& around, const B& cosine, const B& roughness) {
     const number::Batch c = cosine.center();
-    const number::Batch value = around.center.e(c);
-    const number::Batch width = cosine.upper() - cosine.lower();
-    const number::Batch low = around.center.e(cosine.lower());
-    const number::Batch high = around.center.e(cosine.upper());
-    const number::BatchMask wide = width > number::Batch(wide_cosines) * c;
-    const number::Batch slope = select((width > number::Batch(0.0)) & ~wide, (high - low) / width, number::Batch(0.0));
-    number::Batch lowest = xsimd::min(value, xsimd::min(low, high));
-    number::Batch highest = xsimd::max(value, xsimd::max(low, high));
-    const auto left = [&](const number::Batch& there, const number::Batch& at) { return xsimd::abs(there - value - slope * (at - c)); };
-    number::Batch remainder = xsimd::max(left(low, cosine.lower()), left(high, cosine.upper()));
-    const number::Batch bend = remainder;
+    Reading reading(cosine, around.center.e(c), around.center.e(cosine.lower()), around.center.e(cosine.upper()));
     if (!xsimd::all(roughness.is_exact())) {
       for (const AlbedoAround::Curve* curve : {&around.lower, &around.upper}) {
         const number::Batch at_lower = curve->e(cosine.lower());
         const number::Batch at_upper = curve->e(cosine.upper());
-        remainder = xsimd::max(remainder, left(curve->e(c), c));
-        lowest = xsimd::min(lowest, xsimd::min(at_lower, at_upper));
-        highest = xsimd::max(highest, xsimd::max(at_lower, at_upper));
-        remainder = xsimd::max(remainder, xsimd::max(left(at_lower, cosine.lower()), left(at_upper, cosine.upper())));
+        reading.include(curve->e(c), at_lower, at_upper);
       }
     }
     const number::BatchMask may_turn = cosine.lower() < number::Batch(albedo::decreasing_from);
-    if (xsimd::any(wide | may_turn)) {
+    const number::BatchMask wide = reading.wide;
+    if (xsimd::any(may_turn)) {
       for (const AlbedoAround::Curve* curve : {&around.lower, &around.center, &around.upper}) {
-        const number::BatchMask turns =
-            wide & may_turn & (cosine.lower() < number::Batch(curve->peak.to)) & (number::Batch(curve->peak.from) < cosine.upper());
-        highest = select(turns, xsimd::max(highest, number::Batch(curve->peak.e)), highest);
+        reading.turn(curve->peak.from, curve->peak.to, curve->peak.e, curve->peak.e);
       }
-      highest = select(may_turn & ~wide, highest + bend, highest);
-      lowest = select(may_turn & ~wide, xsimd::max(number::Batch(0.0), lowest - bend), lowest);
-      remainder = select(wide, xsimd::max(highest - value, value - lowest), remainder);
+      reading.bend_within(may_turn);
     }
-    const auto error = [&](const number::Batch& n_dot_v) { return albedo::lookup_error(highest, n_dot_v, roughness.center()); };
-    const number::Batch shares = width / xsimd::max(c, number::Batch(albedo::min_n_dot_v)) +
-                                 (roughness.upper() / xsimd::max(roughness.lower(), number::Batch(1e-8)) - number::Batch(1.0));
-    number::Batch off = error(c) * (number::Batch(1.0) + number::Batch(4.0) * select(wide, number::Batch(0.0), shares));
+    const auto error = [&](const number::Batch& n_dot_v) { return albedo::lookup_error(reading.highest, n_dot_v, roughness.center()); };
+    const number::Batch share = roughness.upper() / xsimd::max(roughness.lower(), number::Batch(1e-8)) - number::Batch(1.0);
+    number::Batch off = error(c) * (reading.growth() + number::Batch(4.0) * select(wide, number::Batch(0.0), share));
     if (xsimd::any(wide)) {
       off = select(wide, xsimd::max(off, xsimd::max(error(cosine.lower()), error(cosine.upper()))), off);
     }
-    const number::Batch radius = xsimd::abs(slope) * cosine.radius() + remainder;
-    e.round({value, slope * cosine.shift_x(), slope * cosine.shift_y(), radius, lowest, highest}, B::Error::absolute(0, off), true);
+    return reading.made(off);
   }
 };
 
@@ -133,11 +202,11 @@ struct AlbedoReaderOfHalves {
     e.take(smaller, e_v);
     return e;
   }
-  static brdf::LobeAlbedo<Eight> ggx(const albedo::GgxInterpolant& ggx, const Eight& cosine, const Eight& alpha) {
-    return of_halves([&](std::size_t half) { return Bounds::ggx(ggx, cosine.bounds(half), alpha.bounds(half)); });
+  static brdf::LobeAlbedo<Eight> ggx(const BaseAlbedo& albedo, const Eight& cosine, const Eight& alpha) {
+    return of_halves([&](std::size_t half) { return Bounds::ggx(albedo, cosine.bounds(half), alpha.bounds(half)); });
   }
-  static brdf::LobeAlbedo<Eight> ggx_average(const albedo::GgxInterpolant& ggx, const Eight& alpha) {
-    return of_halves([&](std::size_t half) { return Bounds::ggx_average(ggx, alpha.bounds(half)); });
+  static brdf::LobeAlbedo<Eight> ggx_average(const BaseAlbedo& albedo, const Eight& alpha) {
+    return of_halves([&](std::size_t half) { return Bounds::ggx_average(albedo, alpha.bounds(half)); });
   }
 
  private:

@@ -53,7 +53,7 @@ Lighting Frame::lighting(const TermFactors& factors) const {
   lighting.sheen = model;
   lighting.albedo.interpolant = albedo ? &*albedo : nullptr;
   lighting.factors = factors;
-  lighting.ggx = ggx ? &*ggx : nullptr;
+  lighting.base_albedo.interpolant = ggx ? &*ggx : nullptr;
   return lighting;
 }
 

@@ -22,8 +22,8 @@ struct Lighting {
   albedo::SheenModel sheen;
   SheenAlbedo albedo;
   TermFactors factors;
-  const DistantLights* distant = nullptr;       ///< of one surface, one a lane, instead of `lights`
-  const albedo::GgxInterpolant* ggx = nullptr;  ///< of the physical model alone, which it makes the base follow
+  const DistantLights* distant = nullptr;  ///< of one surface, one a lane, instead of `lights`
+  BaseAlbedo base_albedo = {};             ///< where there is one the base follows the physical model
 };
 
 /// Whether Shaded::lookup (shade.h) is wanted of a number type.
@@ -116,8 +116,8 @@ struct HalfAngles {
 
 /// The base of the physical model at one point, with what does not depend on the light found once.
 template <class Real>
-brdf::PhysicalBase<Real> physical_base(const brdf::Base<Real>& base, const Real& n_dot_v, const albedo::GgxInterpolant& ggx) {
-  return {base, AlbedoReader<Real>::ggx(ggx, n_dot_v, base.alpha), AlbedoReader<Real>::ggx_average(ggx, base.alpha)};
+brdf::PhysicalBase<Real> physical_base(const brdf::Base<Real>& base, const Real& n_dot_v, const BaseAlbedo& albedo) {
+  return {base, AlbedoReader<Real>::ggx(albedo, n_dot_v, base.alpha), AlbedoReader<Real>::ggx_average(albedo, base.alpha)};
 }
 
 /// x times one of TermFactors: x itself where that is 1, of which a shader knows nothing.
@@ -248,8 +248,8 @@ class BelowCoat {
     if (layers.sheen) {
       sheen_.emplace(surface, lobe_, lighting);
     }
-    if (lighting.ggx != nullptr) {
-      physical_.emplace(physical_base(base_.material(), n_dot_v_, *lighting.ggx));
+    if (lighting.base_albedo.interpolant != nullptr) {
+      physical_.emplace(physical_base(base_.material(), n_dot_v_, lighting.base_albedo));
     }
   }
 
@@ -301,7 +301,7 @@ class BelowCoat {
 
   Color base_brdf(const Real& n_dot_l, const HalfAngles<Lobe>& half) const {
     if (physical_) {
-      const auto albedo = AlbedoReader<Lobe>::ggx(*lighting_.ggx, As<Lobe>::number(n_dot_l), base_.material().alpha);
+      const auto albedo = AlbedoReader<Lobe>::ggx(lighting_.base_albedo, As<Lobe>::number(n_dot_l), base_.material().alpha);
       return As<Real>::color(physical_->brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h()));
     }
     return As<Real>::color(base_.brdf(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h, half.v_dot_h()));

@@ -102,9 +102,12 @@ TEST(Parts, AddUpToAllThatSurfacesMayShow) {
       {"unclamped", Visibility::Ashikhmin, AlbedoScaling::Literal, {true, true}, true, false, Precision::Highp},
       {"lacquer", Visibility::Charlie, AlbedoScaling::Full, {false, true}, false, false, Precision::Highp},
       {"physical", Visibility::Charlie, AlbedoScaling::Full, {false, true}, false, true, Precision::Highp},
+      {"physical of one alpha", Visibility::Charlie, AlbedoScaling::Full, {false, true}, true, true, Precision::Highp},
       {"mediump", Visibility::Charlie, AlbedoScaling::Full, {true, true}, true, false, Precision::Mediump},
   };
   const albedo::GgxInterpolant ggx;
+  const Bound alpha = Bound(0.4) * Bound(0.4);
+  const GgxAround ggx_about = ggx_around(ggx, alpha);
   for (const Case& c : cases) {
     SCOPED_TRACE(c.name);
     const albedo::Interpolant e(c.visibility);
@@ -121,7 +124,12 @@ TEST(Parts, AddUpToAllThatSurfacesMayShow) {
     lighting.sheen = {c.visibility, c.scaling};
     lighting.albedo.interpolant = &e;
     lighting.albedo.around = c.around ? &around : nullptr;
-    lighting.ggx = c.physical ? &ggx : nullptr;
+    if (c.physical) {
+      lighting.base_albedo = {&ggx, c.around ? &ggx_about : nullptr};
+    }
+    for (Surface<Bound>& s : p.surfaces) {
+      s.base.alpha = c.physical && c.around ? alpha : s.base.alpha;
+    }
     std::vector<BelowSum<Bound>> one;
     for (const bool batch : {false, true}) {
       if (batch && !number::has_batch()) {

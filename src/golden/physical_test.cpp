@@ -32,7 +32,7 @@ Lighting physical(const PreparedLight* lights = nullptr, std::size_t count = 0) 
   lighting.lights = lights;
   lighting.light_count = count;
   lighting.sheen.model = albedo::Model::Physical;
-  lighting.ggx = &ggx();
+  lighting.base_albedo.interpolant = &ggx();
   return lighting;
 }
 

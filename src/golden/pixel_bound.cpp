@@ -24,6 +24,14 @@ PixelBound::PixelBound(const Frame& frame)
       near_misses_(frame),
       reader_(frame.geometry, frame.rays, frame.reader, frame.model.model),
       lights_(seen_from(frame.rays.camera(), frame.lights)) {
+  for (std::size_t i = 0; frame.ggx && i < frame.scene.materials.size(); ++i) {
+    const SurfaceReader::Material& m = frame.reader.material(static_cast<int>(i));
+    std::optional<GgxAround>& around = base_albedos_.emplace_back();
+    if (m.source != nullptr && !m.metallic_roughness.texture) {
+      const Bound roughness(m.source->roughness_factor);
+      around.emplace(ggx_around(*frame.ggx, roughness * roughness));
+    }
+  }
   if (!frame.albedo) {
     return;
   }
@@ -53,6 +61,7 @@ Lighting PixelBound::lighting(int material) const {
   lighting.lights = lights_.data();
   const auto m = static_cast<std::size_t>(material);
   lighting.albedo.around = m < albedos_.size() && albedos_[m] ? &*albedos_[m] : nullptr;
+  lighting.base_albedo.around = m < base_albedos_.size() && base_albedos_[m] ? &*base_albedos_[m] : nullptr;
   return lighting;
 }
 

@@ -44,8 +44,9 @@ class PixelBound {
   const Frame& frame_;
   NearMisses near_misses_;
   BoundedSurfaceReader reader_;
-  std::vector<PreparedLight> lights_;                 // in view space
-  std::vector<std::optional<AlbedoAround>> albedos_;  // of materials without a texture of sheen roughness
+  std::vector<PreparedLight> lights_;                   // in view space
+  std::vector<std::optional<AlbedoAround>> albedos_;    // of materials without a texture of sheen roughness
+  std::vector<std::optional<GgxAround>> base_albedos_;  // and of roughness, in the physical model
 };
 
 }  // namespace sheen::golden

@@ -64,8 +64,8 @@ struct AlbedoReader<number::test::Perturbed<Precision>> {
   static P for_light(const P&, const P&, const P&, const Read& read) {
     return read();
   }
-  static brdf::LobeAlbedo<P> ggx(const albedo::GgxInterpolant&, const P&, const P&) { return {}; }
-  static brdf::LobeAlbedo<P> ggx_average(const albedo::GgxInterpolant&, const P&) { return {}; }
+  static brdf::LobeAlbedo<P> ggx(const BaseAlbedo&, const P&, const P&) { return {}; }
+  static brdf::LobeAlbedo<P> ggx_average(const BaseAlbedo&, const P&) { return {}; }
 };
 
 namespace {

@@ -182,8 +182,8 @@ Shaded<double> shade_uniform(const Surface<double>& surface, Layers layers, cons
   } else {
     base = base_integrals(surface.base.alpha, lobe.n_dot_v, one);
   }
-  const Color reflected = lighting.ggx != nullptr
-                              ? physical_base(surface.base, lobe.n_dot_v, *lighting.ggx).light(base.specular, base.specular_w)
+  const Color reflected = lighting.base_albedo.interpolant != nullptr
+                              ? physical_base(surface.base, lobe.n_dot_v, lighting.base_albedo).light(base.specular, base.specular_w)
                               : base_light(surface.base, base);
   const Color under = (reflected * factors.base) * light * (1 - k);
   const Color cloth = sheen_light * light * (1 - k);
