@@ -115,7 +115,7 @@ void keep_golden(const fs::path& images, const std::string& name, const image::I
 
 void judge_picture(const Case& one, const PreparedCase& prepared, const image::Image& candidate, const Hello& hello,
                    const GoldenStore& store, CaseResult& result) {
-  VerdictRules rules = own_rules(prepared.settings.precision, !one.environment.empty());
+  VerdictRules rules = own_rules(prepared.settings.precision, prepared.settings.sheen.scaling, !one.environment.empty());
   rules.golden_is_pxr24 = prepared.reference.pxr24;
   rules.candidate_is_srgb8 = hello.encoding == Encoding::Srgb8;
   if (hello.name != "sheen-cts") {
@@ -172,8 +172,9 @@ void judge_refusal(const Answer& answer, const Hello& hello, CaseResult& result)
 
 }  // namespace
 
-VerdictRules own_rules(golden::Precision precision, bool environment) {
+VerdictRules own_rules(golden::Precision precision, albedo::AlbedoScaling scaling, bool environment) {
   VerdictRules rules;
+  rules.may_be_negative = scaling == albedo::AlbedoScaling::Literal;
   if (precision == golden::Precision::Mediump) {
     // Ten bits leave much open, and near some singularities everything.
     rules.leave_out_unpromised = true;

@@ -68,8 +68,8 @@ inline constexpr int environment_directions = 4096;
 inline constexpr double foreign_relative_tolerance = 1e-3;
 inline constexpr double foreign_absolute_tolerance = 2e-5;
 
-/// What our own viewer is judged by: a golden for that precision, and whether an environment lights the scene.
-VerdictRules own_rules(golden::Precision precision, bool environment);
+/// What our own viewer is judged by: a golden for that precision and scaling, and whether an environment lights the scene.
+VerdictRules own_rules(golden::Precision precision, albedo::AlbedoScaling scaling, bool environment);
 
 /// Judges what the viewer answered and writes the case's pictures to `images`. A candidate that fails is also held against the goldens of
 /// the other forms that the text allows (simplified scaling; the simpler visibility): a viewer that cannot be told which form to draw and

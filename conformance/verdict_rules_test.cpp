@@ -73,6 +73,18 @@ TEST_F(VerdictRulesTest, MirroredPixelsAreLeftOutOnlyIfTheRulesSaySo) {
   EXPECT_EQ(verdict().compared_pixels, 99);
 }
 
+TEST_F(VerdictRulesTest, WithinItsBoundAValueMayBeNegativeOnlyIfTheRulesSaySo) {
+  golden_.at(1, 3, 0) = 0.01F;
+  golden_.at(1, 3, 4) = 0.03F;
+  candidate_.at(1, 3, 0) = -0.01F;
+  EXPECT_EQ(verdict().status, Status::Fail);
+  EXPECT_EQ(verdict().negative_pixels, 1);
+  rules_.may_be_negative = true;
+  EXPECT_EQ(verdict().status, Status::Pass);
+  golden_.at(1, 3, 4) = 0.005F;
+  EXPECT_EQ(verdict().negative_pixels, 1) << "where the bound does not reach below zero";
+}
+
 TEST_F(VerdictRulesTest, AToleranceIsGrantedBeyondTheBoundAndToColoursAlone) {
   for (const auto& [relative, absolute] : {std::pair{1e-2, 0.0}, std::pair{0.0, 3e-3}, std::pair{1e-2, 3e-3}}) {
     VerdictRules rules;

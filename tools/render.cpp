@@ -85,7 +85,7 @@ int render(const RenderOptions& options) {
     request.subpixel_bits = context->info().subpixel_bits;
     request.precision = options.precision == renderer::Precision::Mediump ? golden::Precision::Mediump : golden::Precision::Highp;
     verdict = conformance::judge(picture, golden_image(scene, options, request),
-                                 conformance::own_rules(request.precision, environment.has_value()));
+                                 conformance::own_rules(request.precision, settings.sheen.scaling, environment.has_value()));
   }
   apply_display(picture, options.tone_map, options.exposure);
   image::write(options.output, picture);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -14,10 +13,10 @@ struct Turn {
   double lowest, highest;
 };
 
-/// Few of them.
+/// Few of them; plain numbers, so that a batched translation unit instantiates no container.
 struct Turns {
   static constexpr std::size_t most = 6;
-  std::array<Turn, most> turn;
+  Turn turn[most];
   std::size_t count = 0;
 
   /// More than there is room for are told as one.

@@ -29,12 +29,12 @@ struct SheenAlbedo {
   const AlbedoAround* around = nullptr;              ///< at the one roughness of all surfaces, for number types that have ranges
 };
 
-/// Albedo of the GGX lobe at the one alpha of a material, of which a shader may hold what lies a little off.
+/// Albedo of the GGX lobe at the one alpha of a material.
 struct GgxAround {
   albedo::GgxCurve at;
   albedo::Turns loss, bias;
-  double share;  ///< between the ends of what a shader may hold of alpha, relative to it
-  brdf::LobeAlbedo<Bound> average;
+  Bound alpha;                      ///< what a shader in highp may hold
+  brdf::LobeAlbedo<Bound> average;  ///< of all of these, over the hemisphere
 };
 
 /// Where it comes from: only of the physical model.

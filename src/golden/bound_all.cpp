@@ -38,11 +38,8 @@ AlbedoAround albedo_around(const albedo::Interpolant& albedo, const Bound& sheen
 GgxAround ggx_around(const albedo::GgxInterpolant& ggx, const Bound& alpha) {
   const albedo::GgxCurve at = ggx.at_alpha(alpha.center());
   constexpr double negligible = 1e-8;
-  const number::Range& range = alpha.range();
-  // Of what counts as a mirror nothing is lost, nor of alphas a little larger.
-  const double share = (range.upper - range.lower) / std::max(alpha.center(), albedo::mirror_alpha);
   return {at, albedo::turns_of([&at](double c) { return at(c).loss; }, negligible),
-          albedo::turns_of([&at](double c) { return at(c).bias; }, negligible), share,
+          albedo::turns_of([&at](double c) { return at(c).bias; }, negligible), alpha,
           AlbedoReader<Bound>::ggx_average({&ggx, nullptr}, alpha)};
 }
 

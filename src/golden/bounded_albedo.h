@@ -60,14 +60,20 @@ struct AlbedoReader<number::Bounded<Precision>> {
   }
 
   static brdf::LobeAlbedo<B> ggx(const BaseAlbedo& albedo, const B& cosine, const B& alpha) {
-    if (albedo.around != nullptr) {
+    if (albedo.around != nullptr && !straddles_mirrors(alpha)) {
       return about(*albedo.around, cosine, alpha);
     }
-    return lobe([&](double c, double a) { return (*albedo.interpolant)(c, a); }, cosine, alpha);
+    const double grazing = 1 - cosine.range().lower;
+    return lobe([&](double c, double a) { return (*albedo.interpolant)(c, a); }, cosine, alpha, std::pow(grazing, 5) + more_bias);
   }
   static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const B& alpha) {
-    return lobe([&](double, double a) { return albedo.interpolant->average(a); }, B(1), alpha);
+    return lobe([&](double, double a) { return albedo.interpolant->average(a); }, B(1), alpha, 1.0 / 21 + more_bias);
   }
+
+  // Over decades of alpha (bounded_albedo_test.cpp): the most that a lobe loses at any cosine, and what its bias is at the most beyond a
+  // mirror's, which is (1 - cosine)^5.
+  static double most_loss(double alpha) { return 0.11 + 0.59 * std::min(alpha, 1.0); }
+  static constexpr double more_bias = 0.005;
 
  private:
   enum class End { Lower, Center, Upper };
@@ -102,14 +108,19 @@ struct AlbedoReader<number::Bounded<Precision>> {
   /// @param turn      includes what f may be between the ends of a wide range where it turns
   /// @param may_turn  whether it may do so in a narrow one
   /// @param across    f at any roughness
+  /// @param least_y   below which f does not change with y
   template <class Function, class Across, class Turn, class Error>
-  static B read(const Function& f, const Across& across, const Turn& turn, bool may_turn, const Error& error, const B& x, const B& y) {
+  static B read(const Function& f, const Across& across, const Turn& turn, bool may_turn, const Error& error, const B& x, const B& y,
+                double least_y = 1e-3) {
     if (!x.is_bounded() || !y.is_bounded()) {
       return B::unbounded(0.0);  // their centres need not be numbers
     }
     const double value = f(x.center(), End::Center);
     const double width = x.range().upper - x.range().lower;
     const bool wide = width > wide_cosines * x.center();
+    // A centre near an end does not tell how the albedo bends, the middle does.
+    const bool lopsided = x.center() - x.range().lower < 0.25 * width || x.range().upper - x.center() < 0.25 * width;
+    const double middle = 0.5 * (x.range().lower + x.range().upper);
     double lowest = value;
     double highest = value;
     double slope = 0;
@@ -128,6 +139,9 @@ struct AlbedoReader<number::Bounded<Precision>> {
       if (width > 0) {
         include(x.range().upper, f(x.range().upper, end));
       }
+      if (lopsided) {
+        include(middle, across(middle, end == End::Lower ? y.range().lower : y.range().upper));
+      }
     };
     if (width > 0) {
       const double low = f(x.range().lower, End::Center);
@@ -135,6 +149,9 @@ struct AlbedoReader<number::Bounded<Precision>> {
       slope = wide ? 0.0 : (high - low) / width;
       include(x.range().lower, low);
       include(x.range().upper, high);
+      if (lopsided) {
+        include(middle, across(middle, y.center()));
+      }
     }
     const double bend = remainder;
     if (!y.is_exact()) {
@@ -146,7 +163,7 @@ struct AlbedoReader<number::Bounded<Precision>> {
       lowest = std::max(0.0, lowest - across_bend);
       remainder += across_bend;
       if (is_wide_roughness(y)) {
-        const double lower = std::max(y.range().lower, 1e-3);
+        const double lower = std::max(y.range().lower, least_y);
         const double upper = std::max(y.range().upper, lower);
         // Steps of a seventh of a roughness, while they are not too many.
         const int steps = std::min(2 + static_cast<int>(7 * std::log(upper / lower)), 40);
@@ -168,8 +185,8 @@ struct AlbedoReader<number::Bounded<Precision>> {
       lowest = std::max(0.0, lowest - bend);
     }
     // It changes by less than four times the share that its arguments do.
-    const double shares =
-        width / std::max(x.center(), albedo::min_n_dot_v) + (y.is_exact() ? 0 : y.range().upper / std::max(y.range().lower, 1e-8) - 1);
+    const double shares = width / std::max(x.center(), albedo::min_n_dot_v) +
+                          (y.is_exact() ? 0 : (y.range().upper - y.range().lower) / std::max(y.range().lower, 1e-8));
     double off = error(highest, x.center(), y.center()) * (1 + 4 * shares);
     if (wide || is_wide_roughness(y)) {
       off = 0;
@@ -202,6 +219,15 @@ struct AlbedoReader<number::Bounded<Precision>> {
 
   /// Of the same ratio each. @param place  from 0 to 1
   static double between(double lower, double upper, double place) { return lower * std::pow(upper / lower, place); }
+
+  /// Between the ends of an alpha, relative to it.
+  static double share_of(const B& alpha) {
+    return (alpha.range().upper - alpha.range().lower) / std::max(alpha.range().lower, albedo::mirror_alpha);
+  }
+  /// Whether a shader may take it for a mirror or not, which changes by more than its share.
+  static bool straddles_mirrors(const B& alpha) {
+    return alpha.range().lower <= albedo::mirror_alpha && !(alpha.range().upper <= albedo::mirror_alpha);
+  }
 
   /// An albedo that is asked at the same places twice, in the same order, and found once.
   template <class Albedo>
@@ -236,22 +262,32 @@ struct AlbedoReader<number::Bounded<Precision>> {
   static double loss_error(double loss) { return albedo::ggx_table_error * loss; }
   static double bias_error() { return albedo::ggx_table_error; }
 
-  /// @param albedo  of a cosine and an alpha
+  /// @param albedo     of a cosine and an alpha
+  /// @param most_bias  of any alpha
   template <class Albedo>
-  static brdf::LobeAlbedo<B> lobe(const Albedo& albedo, const B& cosine, const B& alpha) {
+  static brdf::LobeAlbedo<B> lobe(const Albedo& albedo, const B& cosine, const B& alpha, double most_bias) {
+    if (cosine.is_bounded() && alpha.is_bounded() && alpha.range().upper > 4 * std::max(alpha.range().lower, albedo::mirror_alpha)) {
+      const auto up_to = [](double value, double most, double off) {
+        return B::rounded({value, 0, 0, most, {0, most}}, B::Error::absolute(0, off), true);
+      };
+      const brdf::LobeAlbedo<double> there = albedo(cosine.center(), alpha.center());
+      const double loss = std::max(there.loss, most_loss(alpha.range().upper));
+      return {up_to(there.loss, loss, loss_error(loss)), up_to(there.bias, std::max(there.bias, most_bias), bias_error())};
+    }
     const double lower = std::max(cosine.range().lower, albedo::min_n_dot_v);
     const double upper = std::max(cosine.range().upper, lower);
     // Either bends over a logarithm of the cosine of 1.
     const int steps = 2 + (std::isfinite(upper) ? static_cast<int>(4 * std::log(upper / lower)) : 0);
     const bool is_wide_alpha = is_wide_roughness(alpha);
-    const double changes = changes_with_alpha * (alpha.range().upper / std::max(alpha.range().lower, albedo::mirror_alpha) - 1);
+    const double changes = changes_with_alpha * share_of(alpha);
     Once<Albedo> once(albedo);
     const auto of = [&](double brdf::LobeAlbedo<double>::*member, const auto& size, const auto& error) {
       once.begin();
       const auto f = [&](double c, double a) { return once(c, a).*member; };
       const auto at = at_ends(f, alpha);
       const auto turn = [&](End end, const auto& include) {
-        if (!is_wide_alpha && end != End::Center) {
+        const bool is_mirror = alpha.range().upper <= albedo::mirror_alpha;  // whose albedos only fall
+        if (is_mirror || (!is_wide_alpha && end != End::Center)) {
           return;
         }
         const double more = is_wide_alpha ? 0.0 : changes;
@@ -261,7 +297,7 @@ struct AlbedoReader<number::Bounded<Precision>> {
                           include(std::max(0.0, there - more * size(there)));
                         });
       };
-      return read(at, f, turn, true, error, cosine, alpha);
+      return read(at, f, turn, true, error, cosine, alpha, albedo::mirror_alpha);
     };
     const auto loss = of(
         &brdf::LobeAlbedo<double>::loss, [](double there) { return there; },
@@ -273,7 +309,8 @@ struct AlbedoReader<number::Bounded<Precision>> {
 
   /// At one alpha; what others change of it is an error.
   static brdf::LobeAlbedo<B> about(const GgxAround& around, const B& cosine, const B& alpha) {
-    const double changes = changes_with_alpha * around.share;
+    const double changes = changes_with_alpha * (share_of(alpha) + std::abs(alpha.center() - around.at.alpha()) /
+                                                                       std::max(around.at.alpha(), albedo::mirror_alpha));
     const auto of = [&](const auto& f, const albedo::Turns& turns, const auto& error) {
       const auto turn = [&](End, const auto& include) {
         for (std::size_t i = 0; i < turns.count; ++i) {

@@ -97,7 +97,7 @@ TEST(BoundedAlbedo, HoldsThePhysicalModels) {
   const albedo::GgxInterpolant ggx;
   for (int i = 0; i < 300 && !HasFailure(); ++i) {
     const Bound cosine = some_range(albedo::min_n_dot_v, random);
-    const Bound alpha = some_range(1e-3, random);
+    const Bound alpha = some_range(i % 4 == 0 ? 1e-10 : 1e-3, random);
     const brdf::LobeAlbedo<Bound> bound = Reader::ggx({&ggx, nullptr}, cosine, alpha);
     for (int c = 0; c <= places; ++c) {
       for (int r = 0; r <= places; r += 4) {
@@ -113,7 +113,8 @@ TEST(BoundedAlbedo, HoldsThePhysicalModels) {
 TEST(BoundedAlbedo, HoldsThePhysicalModelsAboutOneAlpha) {
   std::mt19937 random(8);
   const albedo::GgxInterpolant ggx;
-  for (const double roughness : {0.0, 0.01, 0.03, 0.1, 0.3, 0.6, 1.0}) {
+  // 9.95e-5 may be a mirror or not.
+  for (const double roughness : {0.0, 5e-5, 9.95e-5, 2e-4, 0.01, 0.03, 0.1, 0.3, 0.6, 1.0}) {
     for (const double reach : {0x1p-23, 1e-3}) {
       const Bound alpha = Bound::within(roughness * roughness, reach * roughness * roughness);
       const GgxAround around = ggx_around(ggx, alpha);
@@ -136,6 +137,77 @@ TEST(BoundedAlbedo, HoldsThePhysicalModelsAboutOneAlpha) {
       EXPECT_TRUE(narrow > 5 || reach > 1e-6);
     }
   }
+}
+
+// Around an alpha of highp, what a shader makes of it in mediump.
+TEST(BoundedAlbedo, HoldsThePhysicalModelsInMediump) {
+  using Medium = number::Bounded<number::Mediump>;
+  const albedo::GgxInterpolant ggx;
+  for (const double roughness : {5e-5, 0.03, 0.2, 0.9}) {
+    const GgxAround around = ggx_around(ggx, Bound(roughness) * Bound(roughness));
+    const Medium alpha = Medium::within(roughness * roughness, 0x1p-10 * roughness * roughness);
+    for (const double cosine : {0.02, 0.2, 0.5, 1.0}) {
+      const Medium of(cosine);
+      const brdf::LobeAlbedo<Medium> bound = AlbedoReader<Medium>::ggx({&ggx, &around}, of, alpha);
+      const brdf::LobeAlbedo<Medium> average = AlbedoReader<Medium>::ggx_average({&ggx, &around}, alpha);
+      for (const double end : {alpha.range().lower, alpha.range().upper}) {
+        const auto holds = [](const Medium& x, double exact, double off) {
+          EXPECT_LE(x.range().lower, std::max(exact - off, 0.0));
+          EXPECT_GE(x.range().upper, exact + off);
+        };
+        const brdf::LobeAlbedo<double> exact = ggx(cosine, end);
+        holds(bound.loss, exact.loss, albedo::ggx_table_error * exact.loss);
+        holds(bound.bias, exact.bias, albedo::ggx_table_error);
+        holds(average.loss, ggx.average(end).loss, albedo::ggx_table_error * ggx.average(end).loss);
+      }
+    }
+  }
+}
+
+// A cosine that is cut off at one end has its centre there, which does not tell how an albedo bends.
+TEST(BoundedAlbedo, HoldsCosinesWhoseCentreIsAtAnEnd) {
+  const albedo::GgxInterpolant ggx;
+  const albedo::Interpolant e(brdf::Visibility::Charlie);
+  SheenAlbedo albedo;
+  albedo.interpolant = &e;
+  // Past where the loss is largest, and up to 1.
+  for (int i = 0; i < 40; ++i) {
+    const auto upper = static_cast<float>(0.41 + 0.59 * i / 39);
+    const Bound cosine = min(Bound::within(upper, 0.06 * upper), Bound(upper));
+    ASSERT_EQ(cosine.center(), cosine.range().upper);
+    const Bound alpha(0.375);
+    const brdf::LobeAlbedo<Bound> of_ggx = Reader::ggx({&ggx, nullptr}, cosine, alpha);
+    const Bound of_sheen = Reader::sheen(albedo, cosine, alpha);
+    for (int c = 0; c <= places; ++c) {
+      const double n_dot_v = at(cosine, 1.0 * c / places);
+      const brdf::LobeAlbedo<double> exact = ggx(n_dot_v, alpha.center());
+      expect_held(of_ggx.loss, exact.loss, albedo::ggx_table_error * exact.loss, cosine, alpha);
+      expect_held(of_ggx.bias, exact.bias, albedo::ggx_table_error, cosine, alpha);
+      expect_held(of_sheen, e(n_dot_v, 0.375), albedo::lookup_error(e(n_dot_v, 0.375), n_dot_v, 0.375), cosine, alpha);
+    }
+  }
+}
+
+TEST(BoundedAlbedo, OfThePhysicalModelAreNoMoreThanWhatDecadesOfAlphaAreGiven) {
+  const albedo::GgxInterpolant ggx;
+  double loss = 0;
+  double bias = 0;
+  for (int a = 0; a <= 180; ++a) {
+    const double alpha = std::pow(10.0, -9 * a / 180.0);
+    double most = 0;
+    for (int c = 0; c <= 200; ++c) {
+      const double cosine = std::pow(10.0, -4 * c / 200.0);
+      most = std::max(most, ggx(cosine, alpha).loss);
+      bias = std::max(bias, ggx(cosine, alpha).bias - std::pow(1 - cosine, 5));
+    }
+    EXPECT_LT(most, 0.11 + 0.59 * alpha);
+    loss = std::max(loss, most / (0.11 + 0.59 * alpha));
+    EXPECT_LE(ggx.average(alpha).loss, most);
+    EXPECT_LT(ggx.average(alpha).bias, 1.0 / 21 + 0.005);
+  }
+  EXPECT_GT(loss, 0.95) << "and some come near it";
+  EXPECT_LT(bias, 0.005);
+  EXPECT_GT(bias, 0.002);
 }
 
 TEST(BoundedAlbedo, OfThePhysicalModelChangeNoMoreWithAlphaThanIsCounted) {

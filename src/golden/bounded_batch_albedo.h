@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 
@@ -49,27 +50,41 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
 
   static brdf::LobeAlbedo<B> ggx(const BaseAlbedo& albedo, const B& cosine, const B& alpha) {
     const auto one = [&albedo](const One& c, const One& a) { return OneAlbedo<Precision>::ggx(albedo, c, a); };
-    if (albedo.around == nullptr || xsimd::any(cosine.is_unbounded() | alpha.is_unbounded())) {
+    const number::Batch mirror(albedo::mirror_alpha);
+    const number::BatchMask straddles = (alpha.lower() <= mirror) & ~(alpha.upper() <= mirror);
+    if (albedo.around == nullptr || xsimd::any(cosine.is_unbounded() | alpha.is_unbounded() | straddles)) {
       return each(one, cosine, alpha);
     }
     const GgxAround& around = *albedo.around;
     const auto at = around.at(cosine.center());
     const auto low = around.at(cosine.lower());
     const auto high = around.at(cosine.upper());
-    const double changes = albedo::ggx_table_error + changes_with_alpha * around.share;
+    const number::Batch share =
+        (alpha.upper() - alpha.lower()) / xsimd::max(alpha.lower(), mirror) +
+        xsimd::abs(alpha.center() - number::Batch(around.at.alpha())) / number::Batch(std::max(around.at.alpha(), albedo::mirror_alpha));
+    const number::Batch changes = number::Batch(albedo::ggx_table_error) + number::Batch(changes_with_alpha) * share;
     Reading loss(cosine, at.loss, low.loss, high.loss);
+    Reading bias(cosine, at.bias, low.bias, high.bias);
+    if (xsimd::any(loss.is_lopsided())) {
+      const auto middle = around.at(loss.middle());
+      loss.include_middle(middle.loss);
+      bias.include_middle(middle.bias);
+      loss.bend = loss.remainder;
+      bias.bend = bias.remainder;
+    }
     loss.bend_within(number::BatchMask(true));
     loss.turn(around.loss);
-    Reading bias(cosine, at.bias, low.bias, high.bias);
     bias.bend_within(number::BatchMask(true));
     bias.turn(around.bias);
-    return {loss.made(number::Batch(changes) * loss.highest * loss.growth()), bias.made(number::Batch(changes) * bias.growth())};
+    return {loss.made(changes * loss.highest * loss.growth()), bias.made(changes * bias.growth())};
   }
   static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const B& alpha) {
     return each(
         [&albedo](const One&, const One& a) {
           if constexpr (std::is_same_v<Precision, number::Highp>) {
-            return albedo.around != nullptr && a.is_bounded() ? albedo.around->average : OneAlbedo<Precision>::ggx_average(albedo, a);
+            const bool is_the_one = albedo.around != nullptr && a.is_bounded() && albedo.around->alpha.range().lower <= a.range().lower &&
+                                    a.range().upper <= albedo.around->alpha.range().upper;
+            return is_the_one ? albedo.around->average : OneAlbedo<Precision>::ggx_average(albedo, a);
           } else {
             return OneAlbedo<Precision>::ggx_average(albedo, a);
           }
@@ -105,9 +120,22 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
       bend = remainder;
     }
 
+    /// Whether the centre, near an end, does not tell how the albedo bends.
+    number::BatchMask is_lopsided() const {
+      const number::Batch quarter = number::Batch(0.25) * width();
+      return (cosine.center() - cosine.lower() < quarter) | (cosine.upper() - cosine.center() < quarter);
+    }
     number::Batch width() const { return cosine.upper() - cosine.lower(); }
     number::Batch left(const number::Batch& there, const number::Batch& at) const {
       return xsimd::abs(there - value - slope * (at - cosine.center()));
+    }
+
+    number::Batch middle() const { return number::Batch(0.5) * (cosine.lower() + cosine.upper()); }
+    /// Where that is asked for.
+    void include_middle(const number::Batch& at_middle) {
+      remainder = select(is_lopsided(), xsimd::max(remainder, left(at_middle, middle())), remainder);
+      lowest = xsimd::min(lowest, at_middle);
+      highest = xsimd::max(highest, at_middle);
     }
 
     /// What it is at another roughness too.
@@ -155,11 +183,19 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
   static B read(const AlbedoAround& around, const B& cosine, const B& roughness) {
     const number::Batch c = cosine.center();
     Reading reading(cosine, around.center.e(c), around.center.e(cosine.lower()), around.center.e(cosine.upper()));
+    const bool lopsided = xsimd::any(reading.is_lopsided());
+    if (lopsided) {
+      reading.include_middle(around.center.e(reading.middle()));
+      reading.bend = reading.remainder;
+    }
     if (!xsimd::all(roughness.is_exact())) {
       for (const AlbedoAround::Curve* curve : {&around.lower, &around.upper}) {
         const number::Batch at_lower = curve->e(cosine.lower());
         const number::Batch at_upper = curve->e(cosine.upper());
         reading.include(curve->e(c), at_lower, at_upper);
+        if (lopsided) {
+          reading.include_middle(curve->e(reading.middle()));
+        }
       }
     }
     const number::BatchMask may_turn = cosine.lower() < number::Batch(albedo::decreasing_from);
@@ -171,7 +207,7 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
       reading.bend_within(may_turn);
     }
     const auto error = [&](const number::Batch& n_dot_v) { return albedo::lookup_error(reading.highest, n_dot_v, roughness.center()); };
-    const number::Batch share = roughness.upper() / xsimd::max(roughness.lower(), number::Batch(1e-8)) - number::Batch(1.0);
+    const number::Batch share = (roughness.upper() - roughness.lower()) / xsimd::max(roughness.lower(), number::Batch(1e-8));
     number::Batch off = error(c) * (reading.growth() + number::Batch(4.0) * select(wide, number::Batch(0.0), share));
     if (xsimd::any(wide)) {
       off = select(wide, xsimd::max(off, xsimd::max(error(cosine.lower()), error(cosine.upper()))), off);

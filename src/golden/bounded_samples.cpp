@@ -15,16 +15,15 @@ constexpr int no_material = -1;
 
 /// All that some numbers may be.
 struct Hull {
-  double lower = std::numeric_limits<double>::infinity();
-  double upper = -std::numeric_limits<double>::infinity();
+  number::Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
   void include(const Bound& x) {
-    lower = std::min(lower, x.range().lower);
-    upper = std::max(upper, x.range().upper);
+    range.lower = std::min(range.lower, x.range().lower);
+    range.upper = std::max(range.upper, x.range().upper);
   }
   Bound bound() const {
-    const double middle = 0.5 * (lower + upper);
-    const double radius = std::max(upper - middle, middle - lower);
+    const double middle = 0.5 * (range.lower + range.upper);
+    const double radius = std::max(range.upper - middle, middle - range.lower);
     return std::isfinite(radius) ? Bound::within(middle, radius) : Bound::unbounded(0.0);
   }
 };
@@ -162,8 +161,18 @@ void BoundedSamples::shade_open() {
   });
 }
 
-// Of an open layer, any of its coats over any of what may lie below. A shader adds their terms light by light, and at each addition rounds
-// all that it has so far.
+number::Range BoundedSamples::together(const number::Range& coat, const number::Range& below, double size, std::size_t lights) {
+  const auto additions = static_cast<double>(3 * lights);  // of sheen, base and coat
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (additions * epsilon > 0.5) {
+    return {-infinity, infinity};
+  }
+  const double relative = additions * epsilon / (1.0 - additions * epsilon);
+  const double room = relative * (size + coat.upper) + additions * number::smallest_normal<number::Highp>;
+  return {below.lower + coat.lower - room, below.upper + coat.upper + room};
+}
+
+// Of an open layer, any of its coats over any of what may lie below.
 Bound BoundedSamples::shown(const Layer& layer, Bound brdf::Rgb<Bound>::*channel) const {
   if (!layer.is_open) {
     return radiance_[layer.surface].*channel;
@@ -173,19 +182,11 @@ Bound BoundedSamples::shown(const Layer& layer, Bound brdf::Rgb<Bound>::*channel
     below.include(below_sums_[i].radiance.*channel);
     size.include(below_sums_[i].size.*channel);
   }
-  if (layer.coats.count() == 0) {
-    return below.bound();
-  }
   for (std::size_t i = layer.coats.first; i < layer.coats.last; ++i) {
     coat.include(coat_sums_[i].radiance.*channel);
   }
-  const auto additions = static_cast<double>(3 * bound_.frame().lights.size());
-  if (additions * epsilon > 0.5) {
-    return Bound::unbounded(0.0);
-  }
-  const double relative = additions * epsilon / (1.0 - additions * epsilon);
-  const double room = relative * (size.upper + coat.upper) + additions * number::smallest_normal<number::Highp>;
-  return Hull{below.lower + coat.lower - room, below.upper + coat.upper + room}.bound();
+  return layer.coats.count() == 0 ? below.bound()
+                                  : Hull{together(coat.range, below.range, size.range.upper, bound_.frame().lights.size())}.bound();
 }
 
 // a c + (1 - a) dst over black, in the order of drawing.

@@ -9,7 +9,7 @@
 
 namespace sheen::golden {
 
-/// What rays see, shaded on number::Bounded, many at a time: samples are added, then all are shaded, then each can be asked for.
+/// What rays see, shaded on uncertain numbers, many at a time: samples are added, then all are shaded, then each can be asked for.
 class BoundedSamples {
  public:
   /// The argument must outlive this.
@@ -22,6 +22,11 @@ class BoundedSamples {
   /// Once after all are added.
   void shade();
   Enclosed at(std::size_t sample) const;
+
+  /// What a shader adds up light by light of what a coat and what lies below add up to, each for itself: at each addition it rounds all
+  /// that it has so far.
+  /// @param size  of the terms below, their sizes added up
+  static number::Range together(const number::Range& coat, const number::Range& below, double size, std::size_t lights);
 
  private:
   struct Interval {

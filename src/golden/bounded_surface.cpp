@@ -171,8 +171,13 @@ Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
   TextureBox box(*slot.texture, at.uv, at.reach);
   const Levels l = levels(slot);
   Spread s = box(l.ideal);
+  double last = std::numeric_limits<double>::quiet_NaN();
   for (const LodInterval& piece : l.pieces) {
     for (const double level : {piece.low, piece.high}) {
+      if (level == last) {
+        continue;  // two pieces share it
+      }
+      last = level;
       const Spread there = box(level);
       s.radius = glm::max(s.radius, glm::abs(there.value - s.value) + there.radius);
     }

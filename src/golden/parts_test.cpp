@@ -9,6 +9,7 @@
 
 #include "albedo/interpolant.h"
 #include "golden/bound_all.h"
+#include "golden/bounded_samples.h"
 #include "golden/shade.h"
 #include "golden/uncertain_surfaces_test.h"
 #include "number/cpu.h"
@@ -131,6 +132,7 @@ TEST(Parts, AddUpToAllThatSurfacesMayShow) {
       s.base.alpha = c.physical && c.around ? alpha : s.base.alpha;
     }
     std::vector<BelowSum<Bound>> one;
+    std::vector<CoatSum<Bound>> one_coat;
     for (const bool batch : {false, true}) {
       if (batch && !number::has_batch()) {
         continue;
@@ -176,6 +178,7 @@ TEST(Parts, AddUpToAllThatSurfacesMayShow) {
         }
       }
       one = p.below;
+      one_coat = p.coat;
     }
   }
 }
@@ -206,6 +209,44 @@ TEST(Parts, CountTheSizesOfTermsOfEitherSign) {
   BelowSum<Bound> sum;
   bound_below({&exact, &at, &zero, &zero, 1, {true, false}, Precision::Highp}, lighting, &sum);
   EXPECT_NEAR(sum.size.g.center(), sizes.below, 1e-4 * sizes.below);
+}
+
+// The terms of a coat and of what lies below it, each added up exactly, and by a shader one by one with roundings to either side.
+TEST(Parts, TogetherHoldWhatAShaderAddsUpLightByLight) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  double farthest = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto lights = static_cast<std::size_t>(1 + i % 100);
+    const bool has_signs = i % 3 == 0;
+    const double smallest = i % 5 == 0 ? 1e-37 : 1e-3;  // of a term, where a sum may be flushed
+    double coat = 0;
+    double below = 0;
+    double size = 0;
+    double sum = 0;
+    const auto add = [&](double term) {
+      const double exact = sum + term;
+      const auto nearest = static_cast<float>(exact);
+      const float towards = unit(random) < 0.9 ? INFINITY : -INFINITY;  // most one way, as they may be
+      sum = static_cast<double>(nearest) == exact ? exact : std::nextafter(nearest, towards);
+      sum = std::abs(sum) < number::smallest_normal<number::Highp> ? 0.0 : sum;
+    };
+    for (std::size_t light = 0; light < lights; ++light) {
+      for (int part = 0; part < 3; ++part) {
+        const auto term = static_cast<float>(smallest * std::pow(10.0, 3 * unit(random)) * (has_signs && part == 1 ? -1 : 1));
+        (part == 2 ? coat : below) += term;
+        size += part == 2 ? 0 : std::abs(term);
+        add(term);
+      }
+    }
+    const number::Range together = BoundedSamples::together({coat, coat}, {below, below}, size, lights);
+    EXPECT_GE(sum, together.lower);
+    EXPECT_LE(sum, together.upper);
+    farthest = std::max(farthest, std::abs(sum - coat - below) / (together.upper - coat - below));
+  }
+  EXPECT_GT(farthest, 0.1);
+  const number::Range too_many = BoundedSamples::together({0, 1}, {0, 1}, 1, 10'000'000);
+  EXPECT_EQ(too_many.upper, INFINITY);
 }
 
 TEST(BendRanges, HoldsWhatAnyReadingOfAMapMakes) {

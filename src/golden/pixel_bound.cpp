@@ -27,7 +27,7 @@ PixelBound::PixelBound(const Frame& frame)
   for (std::size_t i = 0; frame.ggx && i < frame.scene.materials.size(); ++i) {
     const SurfaceReader::Material& m = frame.reader.material(static_cast<int>(i));
     std::optional<GgxAround>& around = base_albedos_.emplace_back();
-    if (m.source != nullptr && !m.metallic_roughness.texture) {
+    if (m.source != nullptr && (!m.metallic_roughness.texture || m.source->roughness_factor == 0.0)) {
       const Bound roughness(m.source->roughness_factor);
       around.emplace(ggx_around(*frame.ggx, roughness * roughness));
     }

@@ -12,8 +12,8 @@
 
 namespace sheen::golden {
 
-/// Light that punctual lights and emission bring through a pixel, and its coverage: what they are at the sample, and the most that a
-/// conforming driver's picture may depart from it while its grid displaces the sample. R G B A.
+/// Light that punctual lights and emission bring through a pixel, and its coverage: what they are at the sample or near it, and the most
+/// that a conforming driver's picture may depart from it while its grid displaces the sample. R G B A.
 struct Enclosed {
   glm::dvec4 value{0.0};
   glm::dvec4 deviation{0.0};  ///< infinite where the rules of GLSL ES promise nothing
@@ -46,7 +46,7 @@ class PixelBound {
   BoundedSurfaceReader reader_;
   std::vector<PreparedLight> lights_;                   // in view space
   std::vector<std::optional<AlbedoAround>> albedos_;    // of materials without a texture of sheen roughness
-  std::vector<std::optional<GgxAround>> base_albedos_;  // and of roughness, in the physical model
+  std::vector<std::optional<GgxAround>> base_albedos_;  // and whose roughness is one, in the physical model
 };
 
 }  // namespace sheen::golden
