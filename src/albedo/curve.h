@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "albedo/coordinates.h"
+#include "albedo/patch_powers.h"
 #include "brdf/math.h"
 #include "number/lanes.h"
 
@@ -68,10 +69,7 @@ class Curve {
       offset[i] = static_cast<std::size_t>(patch) * nodes;
     }
     const Real local = Real(1) - Real(2) * (along - Lanes::load(start)) * Lanes::load(per_length);
-    Real h = Lanes::pick(powers_[0] + nodes - 1, offset);
-    for (int power = nodes - 2; power >= 0; --power) {
-      h = h * local + Lanes::pick(powers_[0] + power, offset);
-    }
+    const Real h = patch_polynomial<nodes>(powers_[0], offset, local);
     return select(drop < Real(negligible_drop), exp(min(h, Real(700)) - drop), Real(0));
   }
 

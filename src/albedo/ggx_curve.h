@@ -4,6 +4,7 @@
 
 #include "albedo/coordinates.h"
 #include "albedo/ggx_albedo.h"
+#include "albedo/patch_powers.h"
 #include "brdf/math.h"
 #include "number/lanes.h"
 
@@ -52,14 +53,7 @@ class GgxCurve {
       offset[i] = static_cast<std::size_t>(patch) * nodes;
     }
     const Real local = Real(1) - Real(2) * (along - Lanes::load(start));
-    const auto sum = [&](const double* powers) {
-      Real h = Lanes::pick(powers + nodes - 1, offset);
-      for (int power = nodes - 2; power >= 0; --power) {
-        h = h * local + Lanes::pick(powers + power, offset);
-      }
-      return h;
-    };
-    return {exp(sum(log_loss_[0])), sum(bias_[0])};
+    return {exp(patch_polynomial<nodes>(log_loss_[0], offset, local)), patch_polynomial<nodes>(bias_[0], offset, local)};
   }
 
  private:

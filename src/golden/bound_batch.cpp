@@ -58,15 +58,15 @@ Vec3<number::RangeBatch> unit_or(const Vec3<number::RangeBatch>& v, const Otherw
   return v * inverse;
 }
 
-void bend_all_batch(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
-  constexpr std::uint32_t order[Many::lanes] = {0, 1, 2, 3};
-  for (std::size_t i = 0; i < count; i += Many::lanes) {
-    const std::size_t here = std::min(count - i, Many::lanes);
-    scatter(bent(gather<MappedNormal<Many>>(maps + i, order, here)), order, here, normals + i);
+namespace {
+
+/// f(first, count) of groups of lanes.
+template <class Function>
+void by_lanes(std::size_t lanes, std::size_t count, const Function& f) {
+  for (std::size_t i = 0; i < count; i += lanes) {
+    f(i, std::min(count - i, lanes));
   }
 }
-
-namespace {
 
 using Forms = number::AffineBatch;
 using Ranges = number::RangeBatch;
@@ -165,14 +165,6 @@ void scatter_ranges(const Result<Ranges>& made, const std::uint32_t* order, std:
   }
 }
 
-/// f(first, count) of groups of lanes.
-template <class Function>
-void by_lanes(std::size_t lanes, std::size_t count, const Function& f) {
-  for (std::size_t i = 0; i < count; i += lanes) {
-    f(i, std::min(count - i, lanes));
-  }
-}
-
 }  // namespace
 
 void bound_all_batch(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {
@@ -186,6 +178,13 @@ void bound_all_batch(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bo
   by_lanes(eight, job.count, [&](std::size_t i, std::size_t here) {
     const EightOf<Surface> surfaces(job.surfaces, job.order + i, here);
     scatter_eight(shade_by_forms(surfaces, job.layers, lighting), job.order + i, here, results);
+  });
+}
+
+void bend_all_batch(const MappedNormal<Bound>* maps, std::size_t count, Vec3<Bound>* normals) {
+  constexpr std::uint32_t order[Many::lanes] = {0, 1, 2, 3};
+  by_lanes(Many::lanes, count, [&](std::size_t i, std::size_t here) {
+    scatter(bent(gather<MappedNormal<Many>>(maps + i, order, here)), order, here, normals + i);
   });
 }
 

@@ -184,17 +184,18 @@ struct AlbedoReader<number::Bounded<Precision>> {
       highest += bend;
       lowest = std::max(0.0, lowest - bend);
     }
-    // It changes by less than four times the share that its arguments do.
-    const double shares = width / std::max(x.center(), albedo::min_n_dot_v) +
-                          (y.is_exact() ? 0 : (y.range().upper - y.range().lower) / std::max(y.range().lower, 1e-8));
-    double off = error(highest, x.center(), y.center()) * (1 + 4 * shares);
+    double off = 0;
     if (wide || is_wide_roughness(y)) {
-      off = 0;
       for (const double c : {x.range().lower, x.center(), x.range().upper}) {
         for (const double r : {y.range().lower, y.center(), y.range().upper}) {
           off = std::max(off, error(highest, c, r));
         }
       }
+    } else {
+      // It changes by less than four times the share that its arguments do.
+      const double shares = width / std::max(x.center(), albedo::min_n_dot_v) +
+                            (y.is_exact() ? 0 : (y.range().upper - y.range().lower) / std::max(y.range().lower, 1e-8));
+      off = error(highest, x.center(), y.center()) * (1 + 4 * shares);
     }
     return B::rounded({value, slope * x.shift_x(), slope * x.shift_y(), std::abs(slope) * x.radius() + remainder, {lowest, highest}},
                       B::Error::absolute(0, off), true);

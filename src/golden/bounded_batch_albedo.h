@@ -67,10 +67,8 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     Reading bias(cosine, at.bias, low.bias, high.bias);
     if (xsimd::any(loss.is_lopsided())) {
       const auto middle = around.at(loss.middle());
-      loss.include_middle(middle.loss);
-      bias.include_middle(middle.bias);
-      loss.bend = loss.remainder;
-      bias.bend = bias.remainder;
+      loss.bend = loss.include_middle(middle.loss);
+      bias.bend = bias.include_middle(middle.bias);
     }
     loss.bend_within(number::BatchMask(true));
     loss.turn(around.loss);
@@ -131,11 +129,12 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     }
 
     number::Batch middle() const { return number::Batch(0.5) * (cosine.lower() + cosine.upper()); }
-    /// Where that is asked for.
-    void include_middle(const number::Batch& at_middle) {
+    /// Where that is asked for. Returns the remainder.
+    const number::Batch& include_middle(const number::Batch& at_middle) {
       remainder = select(is_lopsided(), xsimd::max(remainder, left(at_middle, middle())), remainder);
       lowest = xsimd::min(lowest, at_middle);
       highest = xsimd::max(highest, at_middle);
+      return remainder;
     }
 
     /// What it is at another roughness too.
@@ -185,8 +184,7 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     Reading reading(cosine, around.center.e(c), around.center.e(cosine.lower()), around.center.e(cosine.upper()));
     const bool lopsided = xsimd::any(reading.is_lopsided());
     if (lopsided) {
-      reading.include_middle(around.center.e(reading.middle()));
-      reading.bend = reading.remainder;
+      reading.bend = reading.include_middle(around.center.e(reading.middle()));
     }
     if (!xsimd::all(roughness.is_exact())) {
       for (const AlbedoAround::Curve* curve : {&around.lower, &around.upper}) {
