@@ -13,6 +13,11 @@
 namespace sheen::golden {
 namespace {
 
+// Of a pixel, what triangles do, which are gone through side by side.
+constexpr std::uint8_t missed = 1;
+constexpr std::uint8_t covered_once = 2;
+constexpr std::uint8_t covered_again = 4;
+
 struct Interval {
   double low, high;
 };
@@ -61,7 +66,9 @@ std::uint64_t pixel_at(int x, int y, int width) {
   return static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(width) + static_cast<std::uint64_t>(x);
 }
 
-void add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& misses) {
+}  // namespace
+
+void NearMisses::add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& misses) {
   // Two corners in one place stay there.
   const auto& positions = frame.geometry.placed(triangle).primitive->positions;
   const std::array<std::uint32_t, 3> corners = frame.geometry.local_vertices(triangle);
@@ -85,8 +92,9 @@ void add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& miss
     return;
   }
   const double reach = reach_of(frame, triangle, polygon);
-  const std::pair<int, int> rows = pixels(along, reach, height);
-  if (none(rows) || none(pixels(across, reach, width))) {
+  const double near = std::max(reach, near_steps * displacement(frame.settings));
+  const std::pair<int, int> rows = pixels(along, near, height);
+  if (none(rows) || none(pixels(across, near, width))) {
     return;
   }
   const bool turns = may_turn_over(polygon, reach);
@@ -97,26 +105,42 @@ void add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& miss
       return;
     }
   }
+  // Of a row, the pixels that some point within so much of their centres' line comes so near to.
+  const auto touched = [&](int y, double within) {
+    const std::vector<WindowPoint> strip = between(polygon, 1, y + 0.5 - within, y + 0.5 + within, perspective);
+    return strip.empty() ? std::pair(0, 0) : pixels(extent(strip, 0), within, width);
+  };
   for (int y = rows.first; y < rows.second; ++y) {
-    const std::vector<WindowPoint> strip = between(polygon, 1, y + 0.5 - reach, y + 0.5 + reach, perspective);
-    if (strip.empty()) {
+    // Of a triangle that may turn over, what it covers is missed as well.
+    const std::pair<int, int> covered = turns ? std::pair(0, 0) : touched(y, 0.0);
+    const auto is_covered = [&covered](int x) { return x >= covered.first && x < covered.second; };
+    const std::pair<int, int> neared = touched(y, near);
+    for (int x = neared.first; x < neared.second; ++x) {
+      note(pixel_at(x, y, width), is_covered(x));
+    }
+    if (neared == covered) {
       continue;
     }
-    const std::pair<int, int> touched = pixels(extent(strip, 0), reach, width);
-    const std::vector<WindowPoint> line = between(polygon, 1, y + 0.5, y + 0.5, perspective);
-    // Of a triangle that may turn over, what it covers as well.
-    const std::pair<int, int> covered = line.empty() || turns ? std::pair(0, 0) : pixels(extent(line, 0), 0.0, width);
-    for (int x = touched.first; x < touched.second; ++x) {
-      if (x < covered.first || x >= covered.second) {
+    const std::pair<int, int> reached = touched(y, reach);
+    for (int x = reached.first; x < reached.second; ++x) {
+      if (!is_covered(x)) {
         misses.push_back({pixel_at(x, y, width), triangle, reach});
       }
     }
   }
 }
 
-}  // namespace
+void NearMisses::note(std::uint64_t pixel, bool is_covered) {
+  const auto add = [&](std::uint8_t bit) { return seen_[pixel].fetch_or(bit, std::memory_order_relaxed); };
+  if (!is_covered) {
+    add(missed);
+  } else if ((add(covered_once) & covered_once) != 0) {
+    add(covered_again);
+  }
+}
 
-NearMisses::NearMisses(const Frame& frame) : width_(frame.rays.width()) {
+NearMisses::NearMisses(const Frame& frame)
+    : width_(frame.rays.width()), seen_(static_cast<std::size_t>(frame.rays.width()) * static_cast<std::size_t>(frame.rays.height())) {
   constexpr std::size_t at_once = 1024;  // triangles
   const std::size_t count = frame.geometry.triangle_count();
   std::vector<std::vector<NearMiss>> parts((count + at_once - 1) / at_once);
@@ -132,11 +156,18 @@ NearMisses::NearMisses(const Frame& frame) : width_(frame.rays.width()) {
 }
 
 NearMisses::Range NearMisses::at(int x, int y) const {
-  const auto before = [](const NearMiss& miss, std::uint64_t pixel) { return miss.pixel < pixel; };
   const std::uint64_t pixel = pixel_at(x, y, width_);
+  if ((seen_[pixel].load(std::memory_order_relaxed) & missed) == 0) {
+    return {misses_.data(), misses_.data()};
+  }
+  const auto before = [](const NearMiss& miss, std::uint64_t other) { return miss.pixel < other; };
   const auto first = std::lower_bound(misses_.begin(), misses_.end(), pixel, before);
   const auto last = std::lower_bound(first, misses_.end(), pixel + 1, before);
   return {misses_.data() + (first - misses_.begin()), misses_.data() + (last - misses_.begin())};
+}
+
+bool NearMisses::has_one_triangle(int x, int y) const {
+  return (seen_[pixel_at(x, y, width_)].load(std::memory_order_relaxed) & (missed | covered_again)) == 0;
 }
 
 }  // namespace sheen::golden

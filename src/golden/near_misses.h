@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,6 +21,8 @@ struct NearMiss {
 /// around a pixel's centre would pass by them.
 class NearMisses {
  public:
+  static constexpr double near_steps = 2;
+
   explicit NearMisses(const Frame& frame);
 
   /// Of a pixel: [begin(), end()).
@@ -31,9 +34,16 @@ class NearMisses {
   };
   Range at(int x, int y) const;
 
+  /// Whether at most one triangle comes within near_steps times displacement() of a pixel's centre, along both axes, and then covers it.
+  bool has_one_triangle(int x, int y) const;
+
  private:
+  void add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& misses);
+  void note(std::uint64_t pixel, bool is_covered);
+
   int width_;
-  std::vector<NearMiss> misses_;  // by pixel
+  std::vector<std::atomic<std::uint8_t>> seen_;  // by pixel, bits
+  std::vector<NearMiss> misses_;                 // by pixel
 };
 
 }  // namespace sheen::golden

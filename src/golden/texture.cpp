@@ -117,13 +117,19 @@ glm::dvec4 LevelReader::texel(double i, double j) const {
   return glm::dvec4(level_.rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(level_.width) + static_cast<std::size_t>(x)]);
 }
 
-glm::dvec4 LevelReader::operator()(glm::dvec2 uv) {
+// Coordinates in texels, from the first texel's middle where the filter is linear and from its edge where it is not.
+glm::dvec2 LevelReader::texels_at(glm::dvec2 uv) const {
   const bool finite = std::isfinite(uv.x) && std::isfinite(uv.y);
   const double u = finite ? uv.x * level_.width : 0.0;
   const double v = finite ? uv.y * level_.height : 0.0;
+  return filter_ == scene::Filter::Linear ? glm::dvec2(u - 0.5, v - 0.5) : glm::dvec2(u, v);
+}
+
+glm::dvec4 LevelReader::operator()(glm::dvec2 uv) {
+  const glm::dvec2 at = texels_at(uv);
   const bool linear = filter_ == scene::Filter::Linear;
-  const double i = std::floor(linear ? u - 0.5 : u);
-  const double j = std::floor(linear ? v - 0.5 : v);
+  const double i = std::floor(at.x);
+  const double j = std::floor(at.y);
   if (!(i == i_ && j == j_)) {
     i_ = i;
     j_ = j;
@@ -135,11 +141,37 @@ glm::dvec4 LevelReader::operator()(glm::dvec2 uv) {
   if (!linear) {
     return texels_[0];
   }
-  const double a = u - 0.5 - i;
-  const double b = v - 0.5 - j;
+  const double a = at.x - i;
+  const double b = at.y - j;
   const glm::dvec4 top = texels_[0] * (1.0 - a) + texels_[1] * a;
   const glm::dvec4 bottom = texels_[2] * (1.0 - a) + texels_[3] * a;
   return top * (1.0 - b) + bottom * b;
+}
+
+std::optional<Patch> LevelReader::patch(glm::dvec2 uv, glm::dvec2 off) {
+  const glm::dvec2 at = texels_at(uv);
+  const glm::dvec2 reach = off * glm::dvec2(level_.width, level_.height);
+  const glm::dvec2 cell = glm::floor(at);
+  if (!(at.x - reach.x >= cell.x && at.x + reach.x < cell.x + 1.0 && at.y - reach.y >= cell.y && at.y + reach.y < cell.y + 1.0)) {
+    return std::nullopt;
+  }
+  Patch p{(*this)(uv), glm::dvec4(0.0), glm::dvec4(0.0), glm::dvec4(0.0)};
+  if (filter_ == scene::Filter::Linear) {
+    const glm::dvec2 weight = at - cell;
+    const glm::dvec4 top = texels_[1] - texels_[0];
+    const glm::dvec4 bottom = texels_[3] - texels_[2];
+    const glm::dvec4 left = texels_[2] - texels_[0];
+    const glm::dvec4 twist = bottom - top;
+    p.along_u = (top + twist * weight.y) * reach.x;
+    p.along_v = (left + twist * weight.x) * reach.y;
+    p.twist = twist * (reach.x * reach.y);
+  }
+  return p;
+}
+
+// Of the four corners' departures, one pair has the first two with one sign, and the third has it there or at the pair's other end.
+glm::dvec4 Patch::reach() const {
+  return glm::abs(along_u) + glm::abs(along_v) + glm::abs(twist);
 }
 
 LevelReader minified(const Texture& texture, double level) {

@@ -85,6 +85,14 @@ double magnified_up_to(const scene::Sampler& sampler);
 /// Of a texture that is minified without filtering between mipmaps: the level that is read.
 double nearest_level(const Texture& texture, double lambda);
 
+/// What one level gives over a box: value + s along_u + t along_v + s t twist, for s and t in [-1, 1].
+struct Patch {
+  glm::dvec4 value, along_u, along_v, twist;
+
+  /// The most that any corner, and so anything within, departs from the value.
+  glm::dvec4 reach() const;
+};
+
 /// One level, by one filter, at one place after another: texels of neighbouring places are fetched once.
 class LevelReader {
  public:
@@ -95,8 +103,15 @@ class LevelReader {
   /// @param uv  texture coordinates, v = 0 at the picture's top row; as (0, 0), where they are not finite
   glm::dvec4 operator()(glm::dvec2 uv);
 
+  /// About uv, `off` to either side; none where the filter has an edge or a bend within.
+  std::optional<Patch> patch(glm::dvec2 uv, glm::dvec2 off);
+
+  const scene::Texels& level() const { return level_; }
+  scene::Filter filter() const { return filter_; }
+
  private:
   glm::dvec4 texel(double i, double j) const;
+  glm::dvec2 texels_at(glm::dvec2 uv) const;
 
   const scene::Texels& level_;
   const scene::Sampler& sampler_;

@@ -19,6 +19,27 @@ constexpr double filter_roundings = 29;
 /// Of a coordinate in texels: the product with the size, and the two differences that make a weight of it.
 constexpr double coordinate_roundings = 3;
 
+Spread spread(const Patch& patch) {
+  const glm::dvec4 reach = patch.reach();
+  return {patch.value, reach + filter_roundings * epsilon * (glm::abs(patch.value) + reach)};
+}
+
+/// About the first of some values, all of them.
+class Looks {
+ public:
+  void include(const glm::dvec4& there) {
+    value_ = is_first_ ? there : value_;
+    is_first_ = false;
+    reach_ = glm::max(reach_, glm::abs(there - value_));
+    largest_ = glm::max(largest_, glm::abs(there));
+  }
+  Spread spread() const { return {value_, reach_ + filter_roundings * epsilon * largest_}; }
+
+ private:
+  bool is_first_ = true;
+  glm::dvec4 value_{0.0}, reach_{0.0}, largest_{0.0};
+};
+
 }  // namespace
 
 TextureBox::TextureBox(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach)
@@ -42,24 +63,31 @@ Spread TextureBox::over_levels(double lambda) const {
   return out;
 }
 
-// Both ends along one axis, and the edges and bends between them, which lie at halves of a texel.
-void TextureBox::Places::add_between(double from, double to, double texels) {
-  const double last = std::ceil(2.0 * to * texels) - 1.0;
-  for (double half = std::floor(2.0 * from * texels) + 1.0; half <= last; half += 1.0) {
-    at.at(count++) = 0.5 * half / texels;
+// Between both ends along one axis, the bends of a linear filter, which are the middles of texels; of one that is not, these and the edges:
+// where two levels are mixed, the edges of one may cut the other's texels anywhere.
+void TextureBox::Places::add_between(double from, double to, double texels, scene::Filter filter) {
+  const double each = filter == scene::Filter::Linear ? 1.0 : 0.5;  // of a texel
+  const double last = std::ceil((to * texels - 0.5) / each) - 1.0;
+  for (double place = std::floor((from * texels - 0.5) / each) + 1.0; place <= last; place += 1.0) {
+    at.at(count++) = (place * each + 0.5) / texels;
   }
 }
 
-// For a level and the next coarser one, uv first.
+// For one level, or for two that are mixed, uv first.
 template <class Look>
-void TextureBox::at_places(double first_level, const Look& look) const {
-  const auto last = static_cast<double>(texture_.levels->size() - 1);
-  Places x{{uv_.x - off_.x, uv_.x + off_.x}, 2};
-  Places y{{uv_.y - off_.y, uv_.y + off_.y}, 2};
-  for (double level = first_level; level <= std::min(first_level + 1.0, last); level += 1.0) {
-    const scene::Texels& texels = (*texture_.levels)[static_cast<std::size_t>(level)];
-    x.add_between(x.at[0], x.at[1], texels.width);
-    y.add_between(y.at[0], y.at[1], texels.height);
+void TextureBox::at_places(const LevelReader& finer, const LevelReader* coarser, const Look& look) const {
+  Places x;
+  Places y;
+  x.at[0] = uv_.x - off_.x;
+  x.at[1] = uv_.x + off_.x;
+  y.at[0] = uv_.y - off_.y;
+  y.at[1] = uv_.y + off_.y;
+  x.count = y.count = 2;
+  for (const LevelReader* reader : {&finer, coarser}) {
+    if (reader != nullptr) {
+      x.add_between(x.at[0], x.at[1], reader->level().width, reader->filter());
+      y.add_between(y.at[0], y.at[1], reader->level().height, reader->filter());
+    }
   }
   look(uv_);
   for (std::size_t row = 0; row < y.count; ++row) {
@@ -67,6 +95,20 @@ void TextureBox::at_places(double first_level, const Look& look) const {
       look({x.at.at(column), y.at.at(row)});
     }
   }
+}
+
+const TextureBox::Level& TextureBox::level(double number) {
+  Level& level = levels_.at(static_cast<std::size_t>(number));
+  const std::uint32_t bit = 1U << static_cast<std::uint32_t>(number);
+  if ((known_ & bit) == 0) {
+    known_ |= bit;
+    const std::optional<Patch> patch = minified(texture_, number).patch(uv_, off_);
+    level.is_flat = patch.has_value();
+    if (patch) {
+      level.patch = *patch;
+    }
+  }
+  return level;
 }
 
 const TextureBox::Pair& TextureBox::pair(double first) {
@@ -79,34 +121,38 @@ const TextureBox::Pair& TextureBox::pair(double first) {
   made.first = first;
   LevelReader finer = minified(texture_, first);
   LevelReader coarser = minified(texture_, first + 1.0);
-  at_places(first, [&](const glm::dvec2& at) { made.values.push_back({finer(at), coarser(at)}); });
+  at_places(finer, &coarser, [&](const glm::dvec2& at) { made.values.push_back({finer(at), coarser(at)}); });
   return made;
 }
 
 Spread TextureBox::operator()(double lambda) {
-  if (is_wide(std::clamp(std::floor(lambda), 0.0, static_cast<double>(texture_.levels->size() - 1)))) {
+  const auto last = static_cast<double>(texture_.levels->size() - 1);
+  if (is_wide(std::clamp(std::floor(lambda), 0.0, last))) {
     return over_levels(lambda);
   }
-  Spread out;
-  glm::dvec4 largest(0.0);
-  bool first = true;
-  const auto include = [&](const glm::dvec4& there) {
-    out.value = first ? there : out.value;
-    out.radius = glm::max(out.radius, glm::abs(there - out.value));
-    largest = glm::max(largest, glm::abs(there));
-    first = false;
-  };
   if (const std::optional<Mixture> mixed = mixture(texture_, lambda)) {
-    for (const auto& [finer, coarser] : pair(mixed->first).values) {
-      include(finer * (1.0 - mixed->share) + coarser * mixed->share);
+    const double share = mixed->share;
+    const Level& finer = level(mixed->first);
+    const Level& coarser = level(mixed->first + 1.0);
+    const auto mix = [share](const glm::dvec4& a, const glm::dvec4& b) { return a * (1.0 - share) + b * share; };
+    if (finer.is_flat && coarser.is_flat) {
+      const Patch& a = finer.patch;
+      const Patch& b = coarser.patch;
+      return spread({mix(a.value, b.value), mix(a.along_u, b.along_u), mix(a.along_v, b.along_v), mix(a.twist, b.twist)});
     }
-  } else {
-    const auto last = static_cast<double>(texture_.levels->size() - 1);
-    LevelReader read = unmixed(texture_, lambda);
-    at_places(std::clamp(std::floor(lambda), 0.0, last), [&](const glm::dvec2& at) { include(read(at)); });
+    Looks looks;
+    for (const auto& [fine, coarse] : pair(mixed->first).values) {
+      looks.include(mix(fine, coarse));
+    }
+    return looks.spread();
   }
-  out.radius += filter_roundings * epsilon * largest;
-  return out;
+  LevelReader read = unmixed(texture_, lambda);
+  if (const std::optional<Patch> patch = read.patch(uv_, off_)) {
+    return spread(*patch);
+  }
+  Looks looks;
+  at_places(read, nullptr, [&](const glm::dvec2& at) { looks.include(read(at)); });
+  return looks.spread();
 }
 
 }  // namespace sheen::golden

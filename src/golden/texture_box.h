@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -18,8 +20,8 @@ struct Spread {
 
 /// What a texture may give at coordinates that lie within `reach` of uv along either axis: at the corners of that box and wherever in it
 /// the filter has an edge (nearest) or a bend (linear), between which it is bilinear and so has no extremes; of a box over many texels, all
-/// that the level holds; with a shader's roundings in highp of the filter's arithmetic. Each mipmap level is read once, however often it is
-/// asked for.
+/// that the level holds; with a shader's roundings in highp of the filter's arithmetic. Each mipmap level that is mixed with another is
+/// read once, however often it is asked for.
 class TextureBox {
  public:
   /// The texture must outlive this.
@@ -34,24 +36,31 @@ class TextureBox {
     double first = 0;
     std::vector<std::array<glm::dvec4, 2>> values;
   };
-  /// A box of more texels than this along an axis is no longer looked at edge by edge, of which there are two a texel: a thousand samples.
+  /// A box of more texels than this along an axis is no longer looked at bend by bend: a few hundred samples.
   static constexpr int widest_box = 16;
-  /// Coordinates along one axis to look at: both ends, two a texel and one more of a level, and of the next, which is half as fine.
+  /// Coordinates along one axis to look at: both ends, up to two a texel and one more of a level, and of the next, half as fine.
   struct Places {
     std::array<double, 4 * widest_box> at;
     std::size_t count;
 
-    void add_between(double from, double to, double texels);
+    void add_between(double from, double to, double texels, scene::Filter filter);
   };
   bool is_wide(double level) const;
   template <class Look>
-  void at_places(double first_level, const Look& look) const;
+  void at_places(const LevelReader& finer, const LevelReader* coarser, const Look& look) const;
+  struct Level {
+    bool is_flat;
+    Patch patch;  // about uv, if it is
+  };
+  const Level& level(double number);
   const Pair& pair(double first);
   Spread over_levels(double lambda) const;
 
   const Texture& texture_;
   glm::dvec2 uv_, off_;
-  std::vector<Pair> pairs_;
+  std::array<Level, 32> levels_;  // by number, of those that are mixed: with more than these a side would have 2^32 texels
+  std::uint32_t known_ = 0;       // a bit for each that was read
+  std::vector<Pair> pairs_;       // of those with an edge or a bend
 };
 
 }  // namespace sheen::golden

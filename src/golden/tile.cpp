@@ -141,7 +141,7 @@ Tile::Plan Tile::plan(int x, int y) {
     return plan;
   }
   plan.first_bound = bounded_->count();
-  double step = look_around(plan);
+  double step = look_around(x, y, plan);
   if (plan.excluded == Exclusion::None) {
     step = std::max(step, look_at_near_misses(x, y, plan));
     plan.excluded = plan.excluded == Exclusion::None && may_open(step) ? Exclusion::Surface : plan.excluded;

@@ -75,8 +75,8 @@ class Tile {
   };
 
   Plan plan(int x, int y);
-  double look_around(Plan& plan);
-  void look(double step, Plan& plan);
+  double look_around(int x, int y, Plan& plan);
+  void look(double step, bool alone, Plan& plan);
   double look_at_near_misses(int x, int y, Plan& plan);
   bool look_at(const NearMiss& miss, bool front, Plan& plan);
   bool may_open(double step) const;

@@ -62,10 +62,12 @@ Seen Tile::extended(const Seen& centre, const Ray& ray) const {
 }
 
 // What the corners of the step see, which is returned: as far as the surfaces that are seen may be displaced.
-double Tile::look_around(Plan& plan) {
-  double step = bound_->step(looks_[0].seen);
+double Tile::look_around(int x, int y, Plan& plan) {
+  const Seen& centre = looks_[0].seen;
+  const bool alone = centre.nearest && !centre.tie && bound_->near_misses().has_one_triangle(x, y);
+  double step = bound_->step(centre);
   while (true) {
-    look(step, plan);
+    look(step, alone && step <= NearMisses::near_steps * displacement(frame_.settings), plan);
     double farther = step;
     for (const Look& look : looks_) {
       farther = std::max(farther, bound_->step(look.seen));
@@ -78,13 +80,19 @@ double Tile::look_around(Plan& plan) {
   }
 }
 
-void Tile::look(double step, Plan& plan) {
+// @param alone  whether there is no triangle but the centre's within the step
+void Tile::look(double step, bool alone, Plan& plan) {
   const Look& centre = looks_[0];
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const double dx = (corner & 1u) != 0 ? step : -step;
     const double dy = (corner & 2u) != 0 ? step : -step;
     Look& look = looks_[corner + 1];
     look.ray = frame_.rays.through(centre.ray.x + dx, centre.ray.y + dy);
+    if (const std::optional<Hit> hit = alone ? frame_.tracer.trace_alone(centre.seen.nearest->triangle, look.ray) : std::nullopt) {
+      look.seen.clear();
+      look.seen.nearest = hit;
+      continue;
+    }
     frame_.tracer.trace(look.ray, true, look.seen);
     if (look.seen.tie || look.seen.ambiguous || interrupted(look.ray, look.seen)) {
       plan.excluded = Exclusion::Surface;

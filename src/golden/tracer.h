@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "golden/geometry.h"
 #include "golden/rays.h"
@@ -24,6 +26,9 @@ class Tracer {
   /// @param with_masked  whether to fill `masked`
   /// @param also         met by the ray as it is said to be, whatever its triangle's plane says: of a triangle that is too narrow for one
   void trace(const Ray& ray, bool with_masked, Seen& seen, const Hit* also = nullptr) const;
+
+  /// What trace() finds where no other triangle is near the ray. None where the triangle's own edge, a clip plane or its alpha matters.
+  std::optional<Hit> trace_alone(std::uint32_t triangle, const Ray& ray) const;
 
  private:
   struct Impl;

@@ -110,5 +110,52 @@ TEST(Tracer, NeighbouringBlendTrianglesCountOnce) {
   }
 }
 
+TEST(Tracer, FindsATriangleThatIsAloneWithoutCastingARay) {
+  scene::Scene s = test::scene_with(test::sphere(40, 20), {}, test::camera_at(4.0), {});
+  const Settings settings = test::settings_for(64, 64);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> pixel(0.0, 64.0);
+  const auto found = [&] {
+    const Frame frame(s, settings);
+    Seen seen;
+    int count = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Ray ray = frame.rays.through(pixel(random), pixel(random));
+      frame.tracer.trace(ray, false, seen);
+      const std::optional<Hit> alone = seen.nearest ? frame.tracer.trace_alone(seen.nearest->triangle, ray) : std::nullopt;
+      count += alone ? 1 : 0;
+      if (alone) {
+        EXPECT_EQ(alone->weights, seen.nearest->weights);
+        EXPECT_EQ(alone->t, seen.nearest->t);
+        EXPECT_EQ(alone->front, seen.nearest->front);
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(found(), 200);
+  s.materials[0].alpha_mode = scene::AlphaMode::Mask;
+  EXPECT_EQ(found(), 0) << "its alpha may discard it";
+}
+
+TEST(Tracer, CastsARayAtATrianglesEdgeAtAClipPlaneAndFromBehind) {
+  scene::Scene s = test::scene_with(test::square(1.0), {}, test::orthographic_at(5.0, 1.0), {});
+  const auto is_found = [&](double x, double y) {
+    const Settings settings = test::settings_for(64, 64);
+    const Frame frame(s, settings);
+    // The upper right triangle.
+    return frame.tracer.trace_alone(1, frame.rays.through(x, y)).has_value();
+  };
+  EXPECT_TRUE(is_found(50.0, 20.0));
+  EXPECT_FALSE(is_found(20.0, 50.0)) << "the other triangle's side";
+  EXPECT_FALSE(is_found(40.0 - 1e-6, 40.0)) << "on the diagonal";
+  s.cameras[0].znear = 5.0 - 1e-9;
+  EXPECT_FALSE(is_found(50.0, 20.0)) << "at the near plane";
+  s.cameras[0].znear = 5.5;
+  EXPECT_FALSE(is_found(50.0, 20.0)) << "before it";
+  s.cameras[0].znear = 0.1;
+  s.instances[0].world_from_local = glm::rotate(glm::dmat4(1.0), 3.14159265358979323846, glm::dvec3(1.0, 1.0, 0.0));
+  EXPECT_FALSE(is_found(50.0, 20.0)) << "from behind";
+}
+
 }  // namespace
 }  // namespace sheen::golden
