@@ -46,7 +46,7 @@ BoundedSamples::Interval BoundedSamples::Maps::add(const std::vector<MappedNorma
 }
 
 void BoundedSamples::add_layer(const Hit& hit, const Ray& ray, double step) {
-  bound_.reader().read(hit, ray, step, read_);
+  bound_.reader().read(triangles_.at(hit.triangle), hit, ray, step, read_);
   const Placed& placed = bound_.frame().geometry.placed(hit.triangle);
   // A surface that does not blend replaces what is there.
   const bool blends = placed.material->alpha_mode == scene::AlphaMode::Blend;

@@ -6,6 +6,7 @@
 
 #include "golden/bound_all.h"
 #include "golden/pixel_bound.h"
+#include "golden/triangle_in_view.h"
 
 namespace sheen::golden {
 
@@ -13,7 +14,7 @@ namespace sheen::golden {
 class BoundedSamples {
  public:
   /// The argument must outlive this.
-  explicit BoundedSamples(const PixelBound& bound) : bound_(bound) {}
+  explicit BoundedSamples(const PixelBound& bound) : bound_(bound), triangles_(bound.frame().geometry, bound.frame().rays) {}
 
   void clear();
   /// Returns the sample's index. @param step  at least PixelBound::step(seen)
@@ -57,6 +58,7 @@ class BoundedSamples {
   Bound shown(const Layer& layer, Bound brdf::Rgb<Bound>::*channel) const;
 
   const PixelBound& bound_;
+  TrianglesInView triangles_;
   BoundedSurface read_;  // the last
   Maps closed_, open_;   // of layers that are not open and of those that are
   std::vector<Surface<Bound>> surfaces_;

@@ -45,64 +45,67 @@ Texel unbounded_texel() {
   return {none, none, none, none};
 }
 
-glm::dmat3 rotation_into_view(const scene::Camera& camera) {
-  return glm::transpose(glm::dmat3(camera.world_from_camera));
-}
-
 }  // namespace
 
 /// One hit, while its surface is read.
 class BoundedSurfaceReader::At {
  public:
-  At(const BoundedSurfaceReader& r, const Hit& hit, const Ray& ray, double step)
+  /// @param triangle  the hit's
+  At(const BoundedSurfaceReader& r, const TriangleInView& triangle, const Hit& hit, const Ray& ray, double step)
       : r_(r),
+        triangle_(triangle),
         hit_(hit),
         ray_(ray),
         placed_(r.geometry_.placed(hit.triangle)),
         material_(r.reader_.material(placed_.material_index)),
         local_(r.geometry_.local_vertices(hit.triangle)),
-        interpolate_(r.geometry_, r.rays_, hit, ray, step) {}
+        interpolate_(r.geometry_, r.rays_, triangle.edges, hit, ray, step) {}
 
-  void read(BoundedSurface& out) const;
-  Bound opacity() const { return opacity(texture(material_.base_color)); }
+  void read(BoundedSurface& out);
+  Bound opacity() { return opacity(texture(material_.base_color)); }
 
  private:
   using Slot = SurfaceReader::Slot;
 
   /// Where a texture is read.
   struct Place {
-    glm::dvec2 uv, reach;
+    glm::dvec2 uv{0.0}, reach{0.0};
     bool is_bounded() const { return std::isfinite(reach.x) && std::isfinite(reach.y); }
   };
 
   struct Tangent {
-    bool exists = false;
     Vector along;
     Bound handedness;
   };
   /// The ideal level, and all that are allowed if that changes anything.
   struct Levels {
-    double ideal;
+    double ideal = -coarsest_level;
     std::vector<LodInterval> pieces;
   };
+  /// What was found last, which slots of the same number share.
+  template <class T>
+  struct Last {
+    std::size_t number = SurfaceReader::slot_count;
+    T found;
+  };
 
-  Levels levels(const Slot& slot) const;
-  const std::array<Bound, 2>& texcoord(std::size_t set) const;
-  Place place(const Slot& slot) const;
-  Texel texture(const Slot& slot) const;
-  Bound texture_coordinate(const Slot& slot, const std::array<Bound, 2>& uv, int row) const;
-  Vector position() const;
+  const Levels& levels(const Slot& slot);
+  const std::array<Bound, 2>& texcoord(std::size_t set);
+  const Place& place(const Slot& slot);
+  Texel texture(const Slot& slot);
+  static Bound texture_coordinate(const Slot& slot, const std::array<Bound, 2>& uv, int row);
+  Vector interpolated(const TriangleInView::Vectors& vectors) const;
   Vector face_normal(const Vector& position) const;
-  Vector transformed(const std::array<glm::dvec3, 3>& directions, const glm::dmat3& view_from_local) const;
   Vector normal(const Vector& position) const;
-  Tangent tangent() const;
-  Vector mapped_normal(std::size_t map, const Vector& normal, BoundedSurface::Maps& maps) const;
+  const Tangent& tangent();
+  Vector mapped_normal(std::size_t map, const Vector& normal, BoundedSurface::Maps& maps);
   Bound opacity(const Texel& base_color) const;
   Bound vertex_color(int channel) const;
-  void read_base(Surface<Bound>& s, Bound& alpha) const;
-  void read_layers(Surface<Bound>& s) const;
+  void read_base(Surface<Bound>& s, Bound& alpha);
+  void read_layers(Surface<Bound>& s);
 
   const BoundedSurfaceReader& r_;
+  const TriangleInView& triangle_;
   const Hit& hit_;
   const Ray& ray_;
   const Placed& placed_;
@@ -110,13 +113,15 @@ class BoundedSurfaceReader::At {
   std::array<std::uint32_t, 3> local_;
   Interpolation interpolate_;
   // Once a texture needs them.
-  mutable std::optional<SurfaceReader::Neighbourhood> beside_;
-  mutable std::optional<Tangent> tangent_;
-  mutable std::array<std::optional<std::array<Bound, 2>>, 2> texcoords_;
+  std::optional<SurfaceReader::Neighbourhood> beside_;
+  std::optional<Tangent> tangent_;
+  std::array<std::optional<std::array<Bound, 2>>, 2> texcoords_;
+  Last<Place> place_;
+  Last<Levels> levels_;
 };
 
 // KHR_texture_transform as a matrix of floats, of which the shader takes two rows.
-Bound BoundedSurfaceReader::At::texture_coordinate(const Slot& slot, const std::array<Bound, 2>& uv, int row) const {
+Bound BoundedSurfaceReader::At::texture_coordinate(const Slot& slot, const std::array<Bound, 2>& uv, int row) {
   const glm::dmat3& m = slot.transform;
   if (m == glm::dmat3(1.0)) {
     return uv.at(static_cast<std::size_t>(row));
@@ -125,7 +130,7 @@ Bound BoundedSurfaceReader::At::texture_coordinate(const Slot& slot, const std::
 }
 
 // TEXCOORD_0 or 1.
-const std::array<Bound, 2>& BoundedSurfaceReader::At::texcoord(std::size_t set) const {
+const std::array<Bound, 2>& BoundedSurfaceReader::At::texcoord(std::size_t set) {
   std::optional<std::array<Bound, 2>>& uv = texcoords_.at(set);
   if (!uv) {
     uv.emplace(std::array<Bound, 2>{Bound(0.0), Bound(0.0)});
@@ -137,22 +142,34 @@ const std::array<Bound, 2>& BoundedSurfaceReader::At::texcoord(std::size_t set) 
   return *uv;
 }
 
-BoundedSurfaceReader::At::Place BoundedSurfaceReader::At::place(const Slot& slot) const {
-  const std::array<Bound, 2>& uv = texcoord(static_cast<std::size_t>(slot.texcoord));
-  const Bound u = texture_coordinate(slot, uv, 0);
-  const Bound v = texture_coordinate(slot, uv, 1);
-  return {{u.center(), v.center()}, {u.deviation(), v.deviation()}};
+const BoundedSurfaceReader::At::Place& BoundedSurfaceReader::At::place(const Slot& slot) {
+  if (place_.number != slot.same_place) {
+    const std::array<Bound, 2>& uv = texcoord(static_cast<std::size_t>(slot.texcoord));
+    const Bound u = texture_coordinate(slot, uv, 0);
+    const Bound v = texture_coordinate(slot, uv, 1);
+    place_ = {slot.same_place, {{u.center(), v.center()}, {u.deviation(), v.deviation()}}};
+  }
+  return place_.found;
 }
 
 // The levels a driver may read a texture at.
-BoundedSurfaceReader::At::Levels BoundedSurfaceReader::At::levels(const Slot& slot) const {
+const BoundedSurfaceReader::At::Levels& BoundedSurfaceReader::At::levels(const Slot& slot) {
+  if (levels_.number == slot.same_levels) {
+    return levels_.found;
+  }
+  levels_.number = slot.same_levels;
+  Levels& out = levels_.found;
+  out.ideal = -coarsest_level;
+  out.pieces.clear();
   if (!slot.texture->needs_lod()) {
-    return {-coarsest_level, {}};
+    return out;
   }
   if (!beside_) {
-    beside_ = r_.reader_.neighbourhood(hit_, ray_);
+    beside_ = r_.reader_.neighbourhood(hit_, interpolate_.edge_functions());
   }
-  Levels out{r_.reader_.level(slot, hit_, *beside_), straight_pieces(*slot.texture, r_.reader_.lod_interval(slot, hit_, *beside_))};
+  const SurfaceReader::Lod lod = r_.reader_.lod(slot, hit_, *beside_);
+  out.ideal = lod.ideal;
+  out.pieces = straight_pieces(*slot.texture, lod.allowed);
   if (out.pieces.size() == 1 && out.pieces.front().low == out.pieces.front().high) {
     out.pieces.clear();  // the ideal one is read alike
   }
@@ -160,16 +177,16 @@ BoundedSurfaceReader::At::Levels BoundedSurfaceReader::At::levels(const Slot& sl
 }
 
 // At the ideal level and at all others that are allowed.
-Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
+Texel BoundedSurfaceReader::At::texture(const Slot& slot) {
   if (!slot.texture) {
     return {};
   }
-  const Place at = place(slot);
+  const Place& at = place(slot);
   if (!at.is_bounded()) {
     return unbounded_texel();
   }
   TextureBox box(*slot.texture, at.uv, at.reach);
-  const Levels l = levels(slot);
+  const Levels& l = levels(slot);
   Spread s = box(l.ideal);
   double last = std::numeric_limits<double>::quiet_NaN();
   for (const LodInterval& piece : l.pieces) {
@@ -185,15 +202,8 @@ Texel BoundedSurfaceReader::At::texture(const Slot& slot) const {
   return texel(s);
 }
 
-// In view space.
-Vector BoundedSurfaceReader::At::position() const {
-  const glm::dvec3 roundings = transform_roundings * epsilon * r_.rounding(hit_.triangle).largest_magnitude();
-  std::array<glm::dvec3, 3> p;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const glm::dvec3& world = r_.geometry_.positions()[r_.geometry_.vertices(hit_.triangle).at(i)];
-    p.at(i) = r_.view_from_world_ * (world - glm::dvec3(r_.rays_.camera().world_from_camera[3]));
-  }
-  const auto axis = [&](int k) { return bound(interpolate_({p[0][k], p[1][k], p[2][k]}, roundings[k])); };
+Vector BoundedSurfaceReader::At::interpolated(const TriangleInView::Vectors& vectors) const {
+  const auto axis = [&](int k) { return bound(interpolate_(vectors.axis(k), vectors.rounding[k])); };
   return {axis(0), axis(1), axis(2)};
 }
 
@@ -215,70 +225,40 @@ Vector BoundedSurfaceReader::At::face_normal(const Vector& position) const {
   return {axis(n.x), axis(n.y), axis(n.z)};
 }
 
-// A matrix of floats times the vectors at the vertices.
-Vector BoundedSurfaceReader::At::transformed(const std::array<glm::dvec3, 3>& directions, const glm::dmat3& view_from_local) const {
-  const glm::dmat3 magnitudes(glm::abs(view_from_local[0]), glm::abs(view_from_local[1]), glm::abs(view_from_local[2]));
-  std::array<glm::dvec3, 3> d;
-  glm::dvec3 largest(0.0);
-  for (std::size_t i = 0; i < 3; ++i) {
-    d.at(i) = view_from_local * directions.at(i);
-    largest = glm::max(largest, magnitudes * glm::abs(directions.at(i)));
-  }
-  const auto axis = [&](int k) { return bound(interpolate_({d[0][k], d[1][k], d[2][k]}, transform_roundings * epsilon * largest[k])); };
-  return {axis(0), axis(1), axis(2)};
-}
-
 Vector BoundedSurfaceReader::At::normal(const Vector& position) const {
-  if (placed_.primitive->normals.empty()) {
-    return face_normal(position);
-  }
-  // Scaled to lengths near 1, as a shader's matrix has it: the length goes, but what has none must not.
-  glm::dmat3 m = r_.view_from_world_ * placed_.normal_matrix;
-  const double scale = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
-  m = scale > 0.0 ? m * (1.0 / scale) : m;
-  const auto& normals = placed_.primitive->normals;
-  const Vector n = transformed({glm::dvec3(normals[local_[0]]), glm::dvec3(normals[local_[1]]), glm::dvec3(normals[local_[2]])}, m);
   // The face's is seldom needed.
-  return unit_or(n, [&] { return face_normal(position); });
+  return triangle_.normal ? unit_or(interpolated(*triangle_.normal), [&] { return face_normal(position); }) : face_normal(position);
 }
 
-// Where the shader finds no tangent it has no use for a map.
-BoundedSurfaceReader::At::Tangent BoundedSurfaceReader::At::tangent() const {
-  const auto& t = placed_.primitive->tangents;
-  const std::array<glm::dvec3, 3> along{glm::dvec3(t[local_[0]]), glm::dvec3(t[local_[1]]), glm::dvec3(t[local_[2]])};
-  const glm::dmat3 m = r_.view_from_world_ * placed_.linear;
-  if (m * along[0] == glm::dvec3(0.0) && m * along[1] == glm::dvec3(0.0) && m * along[2] == glm::dvec3(0.0)) {
-    return {};
+const BoundedSurfaceReader::At::Tangent& BoundedSurfaceReader::At::tangent() {
+  if (!tangent_) {
+    const auto& t = placed_.primitive->tangents;
+    tangent_ = {interpolated(*triangle_.tangent), bound(interpolate_({t[local_[0]].w, t[local_[1]].w, t[local_[2]].w}, 0.0))};
   }
-  return {true, transformed(along, m), bound(interpolate_({t[local_[0]].w, t[local_[1]].w, t[local_[2]].w}, 0.0))};
+  return *tangent_;
 }
 
 // On the side that is seen; see BoundedSurface for `maps`.
-Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& normal, BoundedSurface::Maps& maps) const {
+Vector BoundedSurfaceReader::At::mapped_normal(std::size_t map, const Vector& normal, BoundedSurface::Maps& maps) {
   const bool of_coat = map == SurfaceReader::clearcoat_normal_slot;
   const Slot& slot = of_coat ? material_.clearcoat_normal : material_.normal;
   maps.is_open = false;
   maps.normal.clear();
   const Vector facing = hit_.front ? normal : Vector{-normal.x, -normal.y, -normal.z};
-  if (!slot.texture || placed_.primitive->tangents.empty()) {
+  // Where the shader finds no tangent it has no use for a map.
+  if (!slot.texture || !triangle_.tangent) {
     return facing;
   }
-  if (!tangent_) {
-    tangent_ = tangent();
-  }
-  if (!tangent_->exists) {
-    return facing;
-  }
-  const Place at = place(slot);
+  const Place& at = place(slot);
   TextureBox box(*slot.texture, at.uv, at.reach);
   const Bound scale(of_coat ? material_.source->clearcoat.normal_scale : material_.source->normal_scale);
-  const Levels l = levels(slot);
+  const Levels& l = levels(slot);
   const NormalLevels all = normal_levels(box, l.ideal, l.pieces, scale.center());
   maps.is_open = all.is_open;
   for (const Spread& spread : all.boxes) {
     const Texel read = at.is_bounded() ? texel(spread) : unbounded_texel();
     const Vector code{read.r, read.g, read.b};
-    maps.normal.push_back({tangent_->along, normal, tangent_->handedness, code, scale, Bound(hit_.front ? 1.0 : -1.0)});
+    maps.normal.push_back({tangent().along, normal, tangent().handedness, code, scale, Bound(hit_.front ? 1.0 : -1.0)});
   }
   return facing;
 }
@@ -297,7 +277,7 @@ Bound BoundedSurfaceReader::At::opacity(const Texel& base_color) const {
   return min(max(alpha, Bound(0.0)), Bound(1));
 }
 
-void BoundedSurfaceReader::At::read_base(Surface<Bound>& s, Bound& alpha) const {
+void BoundedSurfaceReader::At::read_base(Surface<Bound>& s, Bound& alpha) {
   const scene::Material& source = *material_.source;
   const Texel base = texture(material_.base_color);
   Color color = color_of(glm::dvec3(source.base_color_factor)) * Color{base.r, base.g, base.b};
@@ -326,7 +306,7 @@ void BoundedSurfaceReader::At::read_base(Surface<Bound>& s, Bound& alpha) const 
   }
 }
 
-void BoundedSurfaceReader::At::read_layers(Surface<Bound>& s) const {
+void BoundedSurfaceReader::At::read_layers(Surface<Bound>& s) {
   const scene::Material& source = *material_.source;
   const Texel emissive = texture(material_.emissive);
   s.emission = color_of(source.emissive_factor) * Color{emissive.r, emissive.g, emissive.b};
@@ -338,15 +318,15 @@ void BoundedSurfaceReader::At::read_layers(Surface<Bound>& s) const {
   s.occlusion = Bound(1);
 }
 
-void BoundedSurfaceReader::At::read(BoundedSurface& out) const {
+void BoundedSurfaceReader::At::read(BoundedSurface& out) {
   Surface<Bound>& s = out.surface;
-  s.position = position();
+  s.position = interpolated(triangle_.position);
   const Vector up{Bound(0.0), Bound(0.0), Bound(1)};
   const Vector toward{-s.position.x, -s.position.y, -s.position.z};
   s.view = r_.rays_.camera().perspective ? unit_or(toward, [&] { return up; }) : up;
-  const Vector interpolated = normal(s.position);
-  s.normal = mapped_normal(SurfaceReader::normal_slot, interpolated, out.normals);
-  s.coat_normal = mapped_normal(SurfaceReader::clearcoat_normal_slot, interpolated, out.coat_normals);
+  const Vector unmapped = normal(s.position);
+  s.normal = mapped_normal(SurfaceReader::normal_slot, unmapped, out.normals);
+  s.coat_normal = mapped_normal(SurfaceReader::clearcoat_normal_slot, unmapped, out.coat_normals);
   out.edge_on = interpolate_.is_edge_on();
   read_base(s, out.opacity);
   read_layers(s);
@@ -354,19 +334,23 @@ void BoundedSurfaceReader::At::read(BoundedSurface& out) const {
 
 BoundedSurfaceReader::BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader,
                                            brdf::Model model)
-    : geometry_(geometry), rays_(rays), reader_(reader), model_(model), view_from_world_(rotation_into_view(rays.camera())) {
+    : geometry_(geometry),
+      rays_(rays),
+      reader_(reader),
+      model_(model),
+      view_from_world_(glm::transpose(glm::dmat3(rays.camera().world_from_camera))) {
   roundings_.reserve(geometry.triangle_count());
   for (std::uint32_t triangle = 0; triangle < geometry.triangle_count(); ++triangle) {
     roundings_.emplace_back(geometry, rays, triangle);
   }
 }
 
-void BoundedSurfaceReader::read(const Hit& hit, const Ray& ray, double step, BoundedSurface& out) const {
-  At(*this, hit, ray, step).read(out);
+void BoundedSurfaceReader::read(const TriangleInView& triangle, const Hit& hit, const Ray& ray, double step, BoundedSurface& out) const {
+  At(*this, triangle, hit, ray, step).read(out);
 }
 
 Bound BoundedSurfaceReader::opacity(const Hit& hit, const Ray& ray, double step) const {
-  return At(*this, hit, ray, step).opacity();
+  return At(*this, TriangleInView(geometry_, rays_, hit.triangle), hit, ray, step).opacity();
 }
 
 }  // namespace sheen::golden

@@ -9,6 +9,7 @@
 #include "golden/rays.h"
 #include "golden/surface.h"
 #include "golden/surface_reader.h"
+#include "golden/triangle_in_view.h"
 #include "golden/vertex_rounding.h"
 
 namespace sheen::golden {
@@ -34,9 +35,10 @@ class BoundedSurfaceReader {
   BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader, brdf::Model model);
 
   /// At a hit of a ray; see Interpolation. Where a normal may or may not have a direction, it is unbounded.
+  /// @param triangle  the hit's
   /// @param step  of the sample's displacement along either axis, pixels
   /// @param out  whatever it was; its memory is made use of
-  void read(const Hit& hit, const Ray& ray, double step, BoundedSurface& out) const;
+  void read(const TriangleInView& triangle, const Hit& hit, const Ray& ray, double step, BoundedSurface& out) const;
 
   /// Its opacity alone, in [0, 1].
   Bound opacity(const Hit& hit, const Ray& ray, double step) const;

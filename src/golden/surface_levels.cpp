@@ -74,61 +74,68 @@ std::vector<LodInterval> straight_pieces(const Texture& texture, const LodInterv
 }
 
 // The stretch is what the snapping of vertices stretches a triangle by, whose weights change the faster the smaller it is.
-SurfaceReader::Neighbourhood SurfaceReader::neighbourhood(const Hit& hit, const Ray& ray) const {
+SurfaceReader::Neighbourhood SurfaceReader::neighbourhood(const Hit& hit, const EdgeFunctions& edges) const {
   Neighbourhood out;
   out.stretch = 8.0 * epsilon;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       const auto i = static_cast<std::size_t>(3 * row + column);
-      bool beyond = false;
-      out.weights.at(i) = i == centre ? hit.weights : weights_beside(hit, ray, column - 1, row - 1, beyond);
-      out.beyond = out.beyond || beyond;
-      out.ideal_beyond = out.ideal_beyond || (beyond && (i == right_of_it || i == below_it));
-      const glm::dvec3 change = glm::abs(out.weights.at(i) - hit.weights);
+      if (i == centre) {
+        out.weights[i] = hit.weights;
+        continue;
+      }
+      const EdgeFunctions::Beside beside = edges.beside(column - 1, row - 1);
+      out.weights[i] = beside.weights;
+      out.beyond = out.beyond || !beside.is_met;
+      out.ideal_beyond = out.ideal_beyond || (!beside.is_met && (i == right_of_it || i == below_it));
+      const glm::dvec3 change = glm::abs(beside.weights - hit.weights);
       out.stretch = std::max(out.stretch, 2.0 * step_ * (change.x + change.y + change.z));
     }
   }
   return out;
 }
 
-double SurfaceReader::level(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const {
-  if (!slot.texture->needs_lod()) {
-    return -coarsest_level;
-  }
-  if (beside.ideal_beyond) {
-    return coarsest_level;
-  }
-  const auto texels = [&](std::size_t i) { return texcoord(slot, hit, beside.weights.at(i)) * slot.texture->size(); };
-  return ideal_lod(texels(centre), texels(right_of_it), texels(below_it));
-}
-
 // The levels OpenGL ES allows, less what lies below level 0 and above the last: there nothing changes. Wider by what a shader that takes
 // log2 of the coordinates' differences is off: two roundings of the coordinates, three more of the length and 4 ulp or 2^-21 of the
 // logarithm; and by the stretch.
-LodInterval SurfaceReader::lod_interval(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const {
+SurfaceReader::Lod SurfaceReader::lod(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const {
   const glm::dvec2 size = slot.texture->size();
   const double last = std::log2(std::max(size.x, size.y)) + 1.0;
-  if (beside.beyond || !(beside.stretch < 1.0)) {
-    return {-1.0, last};
+  const Placed& placed = geometry_.placed(hit.triangle);
+  const auto& coordinates = placed.primitive->texcoords[static_cast<std::size_t>(slot.texcoord)];
+  const auto vertices = geometry_.local_vertices(hit.triangle);
+  glm::dvec2 at_vertices[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec2 uv = coordinates.empty() ? glm::dvec2(0.0) : glm::dvec2(coordinates[vertices[i]]);
+    at_vertices[i] = glm::dvec2(slot.transform * glm::dvec3(uv, 1.0)) * size;
   }
   glm::dvec2 texels[9];
   for (std::size_t i = 0; i < 9; ++i) {
-    texels[i] = texcoord(slot, hit, beside.weights.at(i)) * size;
+    const glm::dvec3& w = beside.weights[i];
+    texels[i] = at_vertices[0] * w.x + at_vertices[1] * w.y + at_vertices[2] * w.z;
   }
-  const LodRange range = lod_range(texels);
+  const TexelSpans spans = texel_spans(texels);
+  Lod out{beside.ideal_beyond ? coarsest_level : level_of(spans.ideal), {-1.0, last}};
+  if (beside.beyond || !(beside.stretch < 1.0)) {
+    return out;
+  }
   const glm::dvec2 off = 2.0 * coordinate_rounding(slot, hit) * size;
-  const auto widened = [&](double lod, double side) {
-    const double spanned = std::exp2(lod) * (1.0 + side * beside.stretch) + side * (off.x + off.y);
+  const auto widened = [&](double texels_spanned, double side) {
+    const double spanned = texels_spanned * (1.0 + side * beside.stretch) + side * (off.x + off.y);
     const double level = spanned > 0.0 ? std::log2(spanned) : -1.0;
     return level + side * std::max(4.0 * epsilon * std::abs(level), 0x1p-21);
   };
-  const double low = std::clamp(widened(range.lowest, -1.0), -1.0, last);
-  return {low, std::clamp(widened(range.highest, 1.0), low, last)};
+  out.allowed.low = std::clamp(widened(spans.least, -1.0), -1.0, last);
+  out.allowed.high = std::clamp(widened(spans.most, 1.0), out.allowed.low, last);
+  return out;
 }
 
 std::optional<LodInterval> SurfaceReader::lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const {
   const Slot& s = slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], slot);
-  return s.texture && s.texture->needs_lod() ? std::optional(lod_interval(s, hit, neighbourhood(hit, ray))) : std::nullopt;
+  if (!s.texture || !s.texture->needs_lod()) {
+    return std::nullopt;
+  }
+  return lod(s, hit, neighbourhood(hit, TriangleEdges(geometry_, rays_, hit.triangle).at(geometry_, ray))).allowed;
 }
 
 std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const {

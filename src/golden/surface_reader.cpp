@@ -28,6 +28,11 @@ glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& otherwise) {
   return v / std::sqrt(length2);
 }
 
+// Whether one level of detail means the same to both, at the same coordinates.
+bool have_same_levels(const Texture& a, const Texture& b) {
+  return a.size() == b.size() && a.sampler.mag == b.sampler.mag && a.sampler.min == b.sampler.min && a.sampler.mip == b.sampler.mip;
+}
+
 Vec3<double> vec3(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
@@ -104,6 +109,24 @@ void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store
     m.clearcoat = slot(source.clearcoat.factor_texture, ColorSpace::Linear);
     m.clearcoat_roughness = slot(source.clearcoat.roughness_texture, ColorSpace::Linear);
     m.clearcoat_normal = slot(source.clearcoat.normal_texture, ColorSpace::Linear);
+  }
+  compare_slots(m);
+}
+
+void SurfaceReader::compare_slots(Material& m) {
+  for (std::size_t i = 0; i < slot_count; ++i) {
+    Slot& slot = m.*slots[i];
+    slot.same_place = slot.same_levels = i;
+    for (std::size_t k = i; k-- > 0;) {
+      const Slot& other = slot_of(m, k);
+      if (!slot.texture || !other.texture || other.texcoord != slot.texcoord || other.transform != slot.transform) {
+        continue;
+      }
+      slot.same_place = k;
+      if (have_same_levels(*slot.texture, *other.texture)) {
+        slot.same_levels = k;
+      }
+    }
   }
 }
 
@@ -189,13 +212,6 @@ TextureReach SurfaceReader::texture_reach(const Hit& hit, const Ray& ray) const 
     reach.beyond_the_step = reach.beyond_the_step || rounding.x > 0.125 * moved.x || rounding.y > 0.125 * moved.y;
   }
   return reach;
-}
-
-const SurfaceReader::Slot& SurfaceReader::slot_of(const Material& m, std::size_t slot) {
-  const std::array<const Slot*, slot_count> slots{&m.base_color, &m.metallic_roughness,  &m.normal,           &m.emissive,
-                                                  &m.specular,   &m.specular_color,      &m.sheen_color,      &m.sheen_roughness,
-                                                  &m.clearcoat,  &m.clearcoat_roughness, &m.clearcoat_normal, &m.occlusion};
-  return *slots[slot];
 }
 
 double SurfaceReader::level(const Slot& slot, const Hit& hit, const Footprint& footprint) const {

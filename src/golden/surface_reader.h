@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "golden/rays.h"
 #include "golden/surface.h"
 #include "golden/texture.h"
+#include "golden/triangle_edges.h"
 
 namespace sheen::golden {
 
@@ -52,6 +54,8 @@ class SurfaceReader {
     std::optional<Texture> texture;
     int texcoord = 0;
     glm::dmat3 transform{1.0};
+    std::size_t same_place = 0;   ///< the first slot of the material that is read at the same coordinates
+    std::size_t same_levels = 0;  ///< and the first whose levels of detail are the same as well
   };
   /// A material with its textures decoded.
   struct Material {
@@ -87,11 +91,14 @@ class SurfaceReader {
     bool ideal_beyond = false;          ///< whether it is one of the three that the ideal level is of
     double stretch = 0;                 ///< of differences between neighbours, by a driver's roundings and snapping; a share
   };
-  Neighbourhood neighbourhood(const Hit& hit, const Ray& ray) const;
+  Neighbourhood neighbourhood(const Hit& hit, const EdgeFunctions& edges) const;
 
-  /// The same for a texture that needs one, of what neighbourhood() says of the hit.
-  LodInterval lod_interval(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const;
-  double level(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const;
+  /// Of a texture that needs one.
+  struct Lod {
+    double ideal;
+    LodInterval allowed;
+  };
+  Lod lod(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const;
 
   /// levels_within() for one texture at a hit; of a normal map corners_within() and as many more as leave no more than a hundredth of a
   /// radian between the normals of two neighbours: a lobe may rise and fall again while a normal swings past it. Empty where no other level
@@ -108,7 +115,12 @@ class SurfaceReader {
 
  private:
   struct Footprint;
-  static const Slot& slot_of(const Material& material, std::size_t slot);
+  static constexpr std::array<Slot Material::*, slot_count> slots{
+      &Material::base_color, &Material::metallic_roughness,  &Material::normal,           &Material::emissive,
+      &Material::specular,   &Material::specular_color,      &Material::sheen_color,      &Material::sheen_roughness,
+      &Material::clearcoat,  &Material::clearcoat_roughness, &Material::clearcoat_normal, &Material::occlusion};
+  static const Slot& slot_of(const Material& material, std::size_t slot) { return material.*slots[slot]; }
+  static void compare_slots(Material& material);
   void read_material(const scene::Scene& scene, TextureStore& store, int index, bool environment);
   glm::dvec2 texcoord(const Slot& slot, const Hit& hit, const glm::dvec3& weights) const;
   glm::dvec2 coordinate_rounding(const Slot& slot, const Hit& hit) const;

@@ -29,8 +29,8 @@ int wrapped(double i, int size, scene::Wrap wrap) {
   return static_cast<int>(j < n ? j : 2.0 * n - 1.0 - j);
 }
 
-double log2_texels(double texels) {
-  return texels > 0.0 ? std::log2(texels) : -std::numeric_limits<double>::infinity();
+double ideal_span(glm::dvec2 here, glm::dvec2 right, glm::dvec2 below) {
+  return std::max(glm::length(right - here), glm::length(below - here));
 }
 
 // Least and most of |difference| along one axis of the 3 x 3 block, over its rows and over either neighbour: an implementation may take its
@@ -196,11 +196,15 @@ glm::dvec4 sample(const Texture& texture, glm::dvec2 uv, double lambda) {
   return unmixed(texture, lambda)(uv);
 }
 
-double ideal_lod(glm::dvec2 here, glm::dvec2 right, glm::dvec2 below) {
-  return log2_texels(std::max(glm::length(right - here), glm::length(below - here)));
+double level_of(double texels) {
+  return texels > 0.0 ? std::log2(texels) : -std::numeric_limits<double>::infinity();
 }
 
-LodRange lod_range(const glm::dvec2 (&texels)[9]) {
+double ideal_lod(glm::dvec2 here, glm::dvec2 right, glm::dvec2 below) {
+  return level_of(ideal_span(here, right, below));
+}
+
+TexelSpans texel_spans(const glm::dvec2 (&texels)[9]) {
   glm::dvec2 least_x;
   glm::dvec2 most_x;
   glm::dvec2 least_y;
@@ -209,7 +213,7 @@ LodRange lod_range(const glm::dvec2 (&texels)[9]) {
   extremes(texels, 3, 1, least_y, most_y);
   const glm::dvec2 least = glm::max(least_x, least_y);
   const glm::dvec2 most = glm::max(most_x, most_y);
-  return {ideal_lod(texels[4], texels[5], texels[7]), log2_texels(std::max(least.x, least.y)), log2_texels(most.x + most.y)};
+  return {ideal_span(texels[4], texels[5], texels[7]), std::max(least.x, least.y), most.x + most.y};
 }
 
 }  // namespace sheen::golden

@@ -126,14 +126,17 @@ LevelReader minified(const Texture& texture, double level);
 /// Reads what sample() does at a level of detail without a mixture().
 LevelReader unmixed(const Texture& texture, double lambda);
 
-/// Level of detail, log2 of the texels a pixel spans: what the specification's ideal formula gives, and the least and the most that
-/// OpenGL ES 3.0.6, section 3.8.10.1, allows: any f with max(m_u, m_v) <= f <= m_u + m_v, from differences to either neighbour.
-struct LodRange {
-  double nominal = 0, lowest = 0, highest = 0;
+/// Texels that a pixel spans: by the specification's ideal formula, and the least and the most that OpenGL ES 3.0.6, section 3.8.10.1,
+/// allows: any f with max(m_u, m_v) <= f <= m_u + m_v, from differences to either neighbour.
+struct TexelSpans {
+  double ideal = 0, least = 0, most = 0;
 };
 
 /// @param texels  coordinates in texels of level 0 at the 3 x 3 pixel centres around a pixel, row by row, all on the plane of one triangle
-LodRange lod_range(const glm::dvec2 (&texels)[9]);
+TexelSpans texel_spans(const glm::dvec2 (&texels)[9]);
+
+/// The level of detail of a span of texels, its log2; of none, -infinity.
+double level_of(double texels);
 
 /// The ideal level alone, from the pixel and its neighbours along +x and +y.
 double ideal_lod(glm::dvec2 here, glm::dvec2 right, glm::dvec2 below);

@@ -104,10 +104,11 @@ TEST(Texture, LevelRangeIsWhatTheSpecificationAllows) {
   for (int i = 0; i < 9; ++i) {
     texels[i] = glm::dvec2(3.0 * (i % 3) + 1.0 * (i / 3), -2.0 * (i % 3) + 4.0 * (i / 3));
   }
-  const LodRange r = lod_range(texels);
-  EXPECT_DOUBLE_EQ(r.nominal, std::log2(std::sqrt(17.0)));
-  EXPECT_DOUBLE_EQ(r.lowest, std::log2(4.0));
-  EXPECT_DOUBLE_EQ(r.highest, std::log2(7.0));
+  const TexelSpans spans = texel_spans(texels);
+  EXPECT_DOUBLE_EQ(spans.ideal, std::sqrt(17.0));
+  EXPECT_DOUBLE_EQ(spans.least, 4.0);
+  EXPECT_DOUBLE_EQ(spans.most, 7.0);
+  EXPECT_DOUBLE_EQ(ideal_lod(texels[4], texels[5], texels[7]), std::log2(std::sqrt(17.0)));
 }
 
 TEST(Texture, ColourIsDecodedFromSrgbAndDataIsNot) {

@@ -17,20 +17,24 @@ double sum_of(const glm::dvec3& v) {
 
 }  // namespace
 
-Interpolation::Interpolation(const Geometry& geometry, const RayGenerator& rays, const Hit& hit, const Ray& ray, double step)
-    : weights_(hit.weights), steps_x_(rays.width() / step), steps_y_(rays.height() / step) {
-  const glm::dvec3 volumes = geometry.edge_volumes(hit.triangle, ray);
-  volumes_x_ = geometry.edge_volumes(hit.triangle, rays.through(ray.x + step, ray.y)) - volumes;
-  volumes_y_ = geometry.edge_volumes(hit.triangle, rays.through(ray.x, ray.y + step)) - volumes;
-  const double sum = sum_of(volumes);
-  sum_x_ = sum_of(volumes_x_);
-  sum_y_ = sum_of(volumes_y_);
+Interpolation::Interpolation(const Geometry& geometry, const RayGenerator& rays, const TriangleEdges& edges, const Hit& hit, const Ray& ray,
+                             double step)
+    : edges_(edges),
+      weights_(hit.weights),
+      functions_(edges.at(geometry, ray)),
+      volumes_x_(functions_.along_x * step),
+      volumes_y_(functions_.along_y * step),
+      sum_x_(sum_of(volumes_x_)),
+      sum_y_(sum_of(volumes_y_)),
+      shares_(sum_of(glm::abs(hit.weights))),
+      steps_x_(rays.width() / step),
+      steps_y_(rays.height() / step) {
+  const double sum = sum_of(functions_.here);
   const glm::dvec3 moved = glm::abs(volumes_x_) + glm::abs(volumes_y_);
-  const double most = std::max({moved.x, moved.y, moved.z, std::abs(sum_x_) + std::abs(sum_y_)});
-  within_ = most < std::abs(sum);
+  const double moved_sum = std::abs(sum_x_) + std::abs(sum_y_);
+  within_ = std::max({moved.x, moved.y, moved.z, moved_sum}) < std::abs(sum);
   per_sum_ = 1.0 / sum;
-  const double bend = (std::abs(sum_x_) + std::abs(sum_y_)) / std::abs(sum);
-  bent_ = bend / (1.0 - bend);
+  bent_ = moved_sum / (std::abs(sum) - moved_sum);
   if (!within_) {
     const std::vector<WindowPoint> polygon = window_polygon(geometry, rays, hit.triangle);
     for (const WindowPoint& corner : around(polygon, {ray.x, ray.y}, step, rays.camera().perspective)) {
@@ -38,28 +42,7 @@ Interpolation::Interpolation(const Geometry& geometry, const RayGenerator& rays,
     }
   }
   if (rays.camera().perspective) {
-    add_corners(geometry, rays, hit);
-  }
-}
-
-void Interpolation::add_corners(const Geometry& geometry, const RayGenerator& rays, const Hit& hit) {
-  const double near = rays.camera().znear;
-  std::array<double, 3> depth{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    depth.at(i) = rays.depth(geometry.positions()[geometry.vertices(hit.triangle).at(i)]);
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t next = (i + 1) % 3;
-    if (depth.at(i) >= near) {
-      corners_.at(corner_count_)[static_cast<int>(i)] = hit.t / depth.at(i);
-      ++corner_count_;
-    }
-    if ((depth.at(i) < near) != (depth.at(next) < near)) {
-      const double share = (near - depth.at(i)) / (depth.at(next) - depth.at(i));
-      corners_.at(corner_count_)[static_cast<int>(i)] = (1.0 - share) * hit.t / near;
-      corners_.at(corner_count_)[static_cast<int>(next)] = share * hit.t / near;
-      ++corner_count_;
-    }
+    depth_ = hit.t;
   }
 }
 
@@ -72,12 +55,8 @@ Varying Interpolation::operator()(const std::array<double, 3>& f, double roundin
   const double largest = std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
   Varying v;
   v.value = glm::dot(weights_, at);
-  double magnified = corner_count_ == 0 ? largest : std::abs(v.value);
-  for (std::size_t i = 0; i < corner_count_; ++i) {
-    magnified = std::max(magnified, std::abs(glm::dot(corners_.at(i), at)));
-  }
-  const glm::dvec3 shares = glm::abs(weights_);
-  v.radius = 13.5 * epsilon * magnified + 3.0 * epsilon * largest + rounding * (shares.x + shares.y + shares.z);
+  const double magnified = depth_ == 0.0 ? largest : std::max(std::abs(v.value), std::abs(depth_) * edges_.largest_share(at));
+  v.radius = 13.5 * epsilon * magnified + 3.0 * epsilon * largest + rounding * shares_;
   if (!within_) {
     double farthest = 0.0;
     for (const glm::dvec3& weights : shown_) {

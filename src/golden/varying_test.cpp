@@ -36,7 +36,7 @@ TEST_F(VaryingTest, HoldsWhatDisplacedSamplesFind) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> within(-1.0, 1.0);
   for (const double step : {1.0 / 512, 1.0 / 32, 0.5}) {
-    const Varying v = Interpolation(geometry, rays, hit, ray, step)(f, 0.0);
+    const Varying v = Interpolation(geometry, rays, TriangleEdges(geometry, rays, 0), hit, ray, step)(f, 0.0);
     double farthest = 0.0;
     for (int i = 0; i < 2000; ++i) {
       const double x = i < 4 ? (i % 2 == 0 ? 1.0 : -1.0) : within(random);
@@ -60,7 +60,7 @@ TEST_F(VaryingTest, HoldsARasteriserThatWalksAlongThePlaneInFloats) {
   for (double x = 200.5; x < 320.0; x += 1.0) {
     const Ray ray = rays.through(x, 256.5);
     const Hit hit = geometry.meet(0, ray).value();
-    const Varying v = Interpolation(geometry, rays, hit, ray, 1.0 / 512)(f, 0.0);
+    const Varying v = Interpolation(geometry, rays, TriangleEdges(geometry, rays, 0), hit, ray, 1.0 / 512)(f, 0.0);
     const auto per_x = static_cast<float>(v.shift_x * 512);
     const auto per_y = static_cast<float>(v.shift_y * 512);
     const auto corner = static_cast<float>(exact(geometry, rays.through(0.0, 0.0)));
@@ -82,7 +82,7 @@ TEST_F(VaryingTest, OfATriangleNarrowerThanTheStepHoldsWhatLiesWithinTheStep) {
   hit.triangle = 0;
   hit.weights = {0.4, 0.4, 0.2};
   hit.t = 4.0;
-  const Varying v = Interpolation(geometry, rays, hit, ray, 1.0 / 16)(f, 0.0);
+  const Varying v = Interpolation(geometry, rays, TriangleEdges(geometry, rays, 0), hit, ray, 1.0 / 16)(f, 0.0);
   EXPECT_NEAR(v.value, 0.8 - 0.4 + 1.0, 1e-12);
   // Across it all: from the foot, where f is 0.5 and changes by 1.5 a unit, to the tip, where it is 5; along it no more than the step.
   const double along = 1.0 / 16 * (4.0 * std::tan(0.5 * s.cameras[0].yfov) / 8.0);
