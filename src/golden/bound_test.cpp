@@ -225,7 +225,7 @@ TEST(Bound, HoldsEveryTexelThatAMovedSampleMayMeet) {
   scene::Environment uniform;
   uniform.uniform = glm::dvec3(1.0);
   for (const auto mip : {scene::MipFilter::None, scene::MipFilter::Linear}) {
-    for (const double tiles : {1.0, 1000.0}) {  // 8 and 8000 texels a pixel, of which the step is 1/512
+    for (const double tiles : {1.0, 3000.0}) {  // 8 and 24,000 texels a pixel, of which the step is 1/512
       scene::Scene s = test::scene_with(test::square(0.9), test::lambertian(glm::dvec4(1.0)), test::orthographic_at(5.0, 1.0),
                                         {test::directional({0.0, 0.0, 1.0})});
       auto& texture = s.materials[0].base_color_texture;

@@ -11,24 +11,6 @@
 namespace sheen::golden {
 namespace {
 
-// Texel index along one axis after wrapping; coordinates are whole doubles, so that none overflows an integer on the way.
-int wrapped(double i, int size, scene::Wrap wrap) {
-  const double n = size;
-  if (i >= 0.0 && i < n) {
-    return static_cast<int>(i);
-  }
-  switch (wrap) {
-    case scene::Wrap::ClampToEdge:
-      return static_cast<int>(std::clamp(i, 0.0, n - 1.0));
-    case scene::Wrap::Repeat:
-      return static_cast<int>(std::clamp(i - n * std::floor(i / n), 0.0, n - 1.0));
-    case scene::Wrap::MirroredRepeat:
-      break;
-  }
-  const double j = std::clamp(i - 2.0 * n * std::floor(i / (2.0 * n)), 0.0, 2.0 * n - 1.0);
-  return static_cast<int>(j < n ? j : 2.0 * n - 1.0 - j);
-}
-
 double ideal_span(glm::dvec2 here, glm::dvec2 right, glm::dvec2 below) {
   return std::max(glm::length(right - here), glm::length(below - here));
 }
@@ -62,18 +44,10 @@ double nearest_level(const Texture& texture, double lambda) {
   return std::clamp(std::ceil(std::min(lambda, last) + 0.5) - 1.0, 0.0, last);
 }
 
-const TextureLevels::Extent& TextureLevels::extent(std::size_t level) const {
+const TexelExtents& TextureLevels::extents(std::size_t level) const {
   Lazy& lazy = extents_[level];
-  std::call_once(lazy.found, [&] {
-    glm::vec4 least = levels_[level].rgba.front();
-    glm::vec4 most = least;
-    for (const glm::vec4& texel : levels_[level].rgba) {
-      least = glm::min(least, texel);
-      most = glm::max(most, texel);
-    }
-    lazy.extent = {glm::dvec4(least), glm::dvec4(most)};
-  });
-  return lazy.extent;
+  std::call_once(lazy.found, [&] { lazy.extents.emplace(levels_[level]); });
+  return *lazy.extents;
 }
 
 Texture TextureStore::get(int texture, scene::ColorSpace space) {
@@ -111,10 +85,12 @@ std::optional<Mixture> mixture(const Texture& texture, double lambda) {
   return mixes ? std::optional(Mixture{first, lambda - first}) : std::nullopt;
 }
 
+const glm::vec4& LevelReader::texel_at(int x, int y) const {
+  return level_.rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(level_.width) + static_cast<std::size_t>(x)];
+}
+
 glm::dvec4 LevelReader::texel(double i, double j) const {
-  const int x = wrapped(i, level_.width, sampler_.wrap_s);
-  const int y = wrapped(j, level_.height, sampler_.wrap_t);
-  return glm::dvec4(level_.rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(level_.width) + static_cast<std::size_t>(x)]);
+  return glm::dvec4(texel_at(wrapped(i, level_.width, sampler_.wrap_s), wrapped(j, level_.height, sampler_.wrap_t)));
 }
 
 // Coordinates in texels, from the first texel's middle where the filter is linear and from its edge where it is not.
@@ -169,6 +145,60 @@ std::optional<Patch> LevelReader::patch(glm::dvec2 uv, glm::dvec2 off) {
   return p;
 }
 
+LevelReader::Block LevelReader::block(glm::dvec2 uv, glm::dvec2 off) const {
+  const glm::dvec2 at = texels_at(uv);
+  const glm::dvec2 reach = off * glm::dvec2(level_.width, level_.height);
+  const glm::dvec2 first = glm::floor(at - reach);
+  const glm::dvec2 last = glm::floor(at + reach) + (filter_ == scene::Filter::Linear ? 1.0 : 0.0);
+  return {{first.x, last.x}, {first.y, last.y}};
+}
+
+// Between two bends, at the middles of texels, the filter is bilinear: what counts are the texels within and, along the block's border,
+// where its ends lie between two of them.
+Extent<glm::dvec4> LevelReader::extent(glm::dvec2 uv, glm::dvec2 off) const {
+  const Block b = block(uv, off);
+  const bool linear = filter_ == scene::Filter::Linear;
+  const auto width = static_cast<std::size_t>(b.columns.last - b.columns.first + 1.0);
+  const auto height = static_cast<std::size_t>(b.rows.last - b.rows.first + 1.0);
+  std::array<int, widest_block> columns;
+  for (std::size_t i = 0; i < width; ++i) {
+    columns.at(i) = wrapped(b.columns.first + static_cast<double>(i), level_.width, sampler_.wrap_s);
+  }
+  // What share of the first and of the last texel but one lies beyond the ends.
+  const glm::dvec2 at = texels_at(uv);
+  const glm::dvec2 reach = off * glm::dvec2(level_.width, level_.height);
+  const glm::dvec2 low = at - reach - glm::dvec2(b.columns.first, b.rows.first);
+  const glm::dvec2 high = at + reach - glm::dvec2(b.columns.last - 1.0, b.rows.last - 1.0);
+  const auto mix = [](const glm::dvec4& x, const glm::dvec4& y, double share) { return x * (1.0 - share) + y * share; };
+  std::array<glm::dvec4, widest_block> before;
+  std::array<glm::dvec4, widest_block> row;
+  Extent<glm::dvec4> out{glm::dvec4(std::numeric_limits<double>::infinity()), glm::dvec4(-std::numeric_limits<double>::infinity())};
+  for (std::size_t j = 0; j < height; ++j) {
+    const int y = wrapped(b.rows.first + static_cast<double>(j), level_.height, sampler_.wrap_t);
+    for (std::size_t i = 0; i < width; ++i) {
+      row.at(i) = glm::dvec4(texel_at(columns.at(i), y));
+    }
+    if (linear) {
+      const glm::dvec4 first = mix(row[0], row[1], low.x);
+      row.at(width - 1) = mix(row.at(width - 2), row.at(width - 1), high.x);
+      row[0] = first;
+    }
+    for (std::size_t i = 0; i < width; ++i) {
+      if (!linear || (j > 0 && j + 1 < height)) {
+        out.include(row.at(i));
+      }
+      if (linear && j == 1) {
+        out.include(mix(before.at(i), row.at(i), low.y));
+      }
+      if (linear && j + 1 == height) {
+        out.include(mix(before.at(i), row.at(i), high.y));
+      }
+    }
+    before = row;
+  }
+  return out;
+}
+
 // Of the four corners' departures, one pair has the first two with one sign, and the third has it there or at the pair's other end.
 glm::dvec4 Patch::reach() const {
   return glm::abs(along_u) + glm::abs(along_v) + glm::abs(twist);
@@ -178,15 +208,17 @@ LevelReader minified(const Texture& texture, double level) {
   return {(*texture.levels)[static_cast<std::size_t>(level)], texture.sampler, texture.sampler.min};
 }
 
+double unmixed_level(const Texture& texture, double lambda) {
+  const scene::Sampler& s = texture.sampler;
+  if (!(lambda > magnified_up_to(s)) || s.mip == scene::MipFilter::None) {
+    return 0.0;
+  }
+  return s.mip == scene::MipFilter::Nearest ? nearest_level(texture, lambda) : static_cast<double>(texture.levels->size() - 1);
+}
+
 LevelReader unmixed(const Texture& texture, double lambda) {
   const scene::Sampler& s = texture.sampler;
-  if (!(lambda > magnified_up_to(s))) {
-    return {texture.levels->front(), s, s.mag};
-  }
-  const auto last = static_cast<double>(texture.levels->size() - 1);
-  return minified(texture, s.mip == scene::MipFilter::None      ? 0.0
-                           : s.mip == scene::MipFilter::Nearest ? nearest_level(texture, lambda)
-                                                                : last);
+  return {(*texture.levels)[static_cast<std::size_t>(unmixed_level(texture, lambda))], s, lambda > magnified_up_to(s) ? s.min : s.mag};
 }
 
 glm::dvec4 sample(const Texture& texture, glm::dvec2 uv, double lambda) {

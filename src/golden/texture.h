@@ -14,29 +14,26 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "golden/texel_extents.h"
 #include "scene/scene.h"
 #include "scene/texels.h"
 
 namespace sheen::golden {
 
-/// Mipmap levels, and the least and the most that each channel of a level comes to, found when it is asked for.
+/// Mipmap levels, and what blocks of their texels come to, found when it is asked for.
 class TextureLevels {
  public:
-  struct Extent {
-    glm::dvec4 least, most;
-  };
-
   explicit TextureLevels(std::vector<scene::Texels> levels) : levels_(std::move(levels)), extents_(levels_.size()) {}
   const scene::Texels& operator[](std::size_t level) const { return levels_[level]; }
   const scene::Texels& front() const { return levels_.front(); }
   std::size_t size() const { return levels_.size(); }
   /// Safe to call from many threads.
-  const Extent& extent(std::size_t level) const;
+  const TexelExtents& extents(std::size_t level) const;
 
  private:
   struct Lazy {
     std::once_flag found;
-    Extent extent;
+    std::optional<TexelExtents> extents;
   };
   std::vector<scene::Texels> levels_;
   mutable std::vector<Lazy> extents_;
@@ -106,11 +103,23 @@ class LevelReader {
   /// About uv, `off` to either side; none where the filter has an edge or a bend within.
   std::optional<Patch> patch(glm::dvec2 uv, glm::dvec2 off);
 
+  /// Texels that are read about uv, `off` to either side.
+  struct Block {
+    TexelExtents::Span columns, rows;
+  };
+  Block block(glm::dvec2 uv, glm::dvec2 off) const;
+
+  /// What is read there. Only of a block of at most widest_block texels a side.
+  Extent<glm::dvec4> extent(glm::dvec2 uv, glm::dvec2 off) const;
+  static constexpr std::size_t widest_block = 10;
+
   const scene::Texels& level() const { return level_; }
+  const scene::Sampler& sampler() const { return sampler_; }
   scene::Filter filter() const { return filter_; }
 
  private:
   glm::dvec4 texel(double i, double j) const;
+  const glm::vec4& texel_at(int x, int y) const;
   glm::dvec2 texels_at(glm::dvec2 uv) const;
 
   const scene::Texels& level_;
@@ -123,7 +132,10 @@ class LevelReader {
 /// Reads one level by the minification filter.
 LevelReader minified(const Texture& texture, double level);
 
-/// Reads what sample() does at a level of detail without a mixture().
+/// Of a level of detail without a mixture(): the level that is read.
+double unmixed_level(const Texture& texture, double lambda);
+
+/// Reads what sample() does there.
 LevelReader unmixed(const Texture& texture, double lambda);
 
 /// Texels that a pixel spans: by the specification's ideal formula, and the least and the most that OpenGL ES 3.0.6, section 3.8.10.1,

@@ -24,43 +24,26 @@ Spread spread(const Patch& patch) {
   return {patch.value, reach + filter_roundings * epsilon * (glm::abs(patch.value) + reach)};
 }
 
-/// About the first of some values, all of them.
-class Looks {
- public:
-  void include(const glm::dvec4& there) {
-    value_ = is_first_ ? there : value_;
-    is_first_ = false;
-    reach_ = glm::max(reach_, glm::abs(there - value_));
-    largest_ = glm::max(largest_, glm::abs(there));
-  }
-  Spread spread() const { return {value_, reach_ + filter_roundings * epsilon * largest_}; }
-
- private:
-  bool is_first_ = true;
-  glm::dvec4 value_{0.0}, reach_{0.0}, largest_{0.0};
-};
+Spread spread(const glm::dvec4& value, const Extent<glm::dvec4>& all) {
+  const glm::dvec4 largest = glm::max(glm::abs(all.least), glm::abs(all.most));
+  return {value, glm::max(all.most - value, value - all.least) + filter_roundings * epsilon * largest};
+}
 
 }  // namespace
 
 TextureBox::TextureBox(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach)
     : texture_(texture), uv_(uv), off_(reach + coordinate_roundings * epsilon * (glm::abs(uv) + glm::dvec2(1.0) / texture.size())) {}
 
-bool TextureBox::is_wide(double level) const {
-  const scene::Texels& texels = (*texture_.levels)[static_cast<std::size_t>(level)];
-  return !(2.0 * off_.x * texels.width <= widest_box && 2.0 * off_.y * texels.height <= widest_box);
+bool TextureBox::is_wide(const scene::Texels& level) const {
+  return !(2.0 * off_.x * level.width <= widest_box && 2.0 * off_.y * level.height <= widest_box);
 }
 
-// Whatever the coordinates: of the two levels that may be read, everything.
-Spread TextureBox::over_levels(double lambda) const {
-  const auto last = static_cast<double>(texture_.levels->size() - 1);
-  const double finer = std::clamp(std::floor(lambda), 0.0, last);
-  const TextureLevels::Extent& a = texture_.levels->extent(static_cast<std::size_t>(finer));
-  const TextureLevels::Extent& b = texture_.levels->extent(static_cast<std::size_t>(std::min(finer + 1.0, last)));
-  Spread out;
-  out.value = sample(texture_, uv_, lambda);
-  out.radius = glm::max(glm::max(a.most, b.most) - out.value, out.value - glm::min(a.least, b.least));
-  out.radius += filter_roundings * epsilon * (glm::abs(out.value) + out.radius);
-  return out;
+// What a reader may find of a level of that number, by its texels.
+Extent<glm::dvec4> TextureBox::over_texels(double number, const LevelReader& reader) const {
+  const LevelReader::Block block = reader.block(uv_, off_);
+  const TexelExtents& extents = texture_.levels->extents(static_cast<std::size_t>(number));
+  const Extent<glm::vec4> texels = extents.over(block.columns, block.rows, reader.sampler());
+  return {glm::dvec4(texels.least), glm::dvec4(texels.most)};
 }
 
 // Between both ends along one axis, the bends of a linear filter, which are the middles of texels; of one that is not, these and the edges:
@@ -73,9 +56,9 @@ void TextureBox::Places::add_between(double from, double to, double texels, scen
   }
 }
 
-// For one level, or for two that are mixed, uv first.
+// For two levels that are mixed, uv first.
 template <class Look>
-void TextureBox::at_places(const LevelReader& finer, const LevelReader* coarser, const Look& look) const {
+void TextureBox::at_places(const LevelReader& finer, const LevelReader& coarser, const Look& look) const {
   Places x;
   Places y;
   x.at[0] = uv_.x - off_.x;
@@ -83,11 +66,9 @@ void TextureBox::at_places(const LevelReader& finer, const LevelReader* coarser,
   y.at[0] = uv_.y - off_.y;
   y.at[1] = uv_.y + off_.y;
   x.count = y.count = 2;
-  for (const LevelReader* reader : {&finer, coarser}) {
-    if (reader != nullptr) {
-      x.add_between(x.at[0], x.at[1], reader->level().width, reader->filter());
-      y.add_between(y.at[0], y.at[1], reader->level().height, reader->filter());
-    }
+  for (const LevelReader* reader : {&finer, &coarser}) {
+    x.add_between(x.at[0], x.at[1], reader->level().width, reader->filter());
+    y.add_between(y.at[0], y.at[1], reader->level().height, reader->filter());
   }
   look(uv_);
   for (std::size_t row = 0; row < y.count; ++row) {
@@ -121,38 +102,45 @@ const TextureBox::Pair& TextureBox::pair(double first) {
   made.first = first;
   LevelReader finer = minified(texture_, first);
   LevelReader coarser = minified(texture_, first + 1.0);
-  at_places(finer, &coarser, [&](const glm::dvec2& at) { made.values.push_back({finer(at), coarser(at)}); });
+  at_places(finer, coarser, [&](const glm::dvec2& at) { made.values.push_back({finer(at), coarser(at)}); });
   return made;
 }
 
-Spread TextureBox::operator()(double lambda) {
-  const auto last = static_cast<double>(texture_.levels->size() - 1);
-  if (is_wide(std::clamp(std::floor(lambda), 0.0, last))) {
-    return over_levels(lambda);
+Spread TextureBox::mixed(const Mixture& mixture) {
+  const double share = mixture.share;
+  const auto mix = [share](const glm::dvec4& a, const glm::dvec4& b) { return a * (1.0 - share) + b * share; };
+  if (is_wide((*texture_.levels)[static_cast<std::size_t>(mixture.first)])) {
+    LevelReader finer = minified(texture_, mixture.first);
+    LevelReader coarser = minified(texture_, mixture.first + 1.0);
+    Extent<glm::dvec4> all = over_texels(mixture.first, finer);
+    all.include(over_texels(mixture.first + 1.0, coarser));
+    return spread(mix(finer(uv_), coarser(uv_)), all);
   }
-  if (const std::optional<Mixture> mixed = mixture(texture_, lambda)) {
-    const double share = mixed->share;
-    const Level& finer = level(mixed->first);
-    const Level& coarser = level(mixed->first + 1.0);
-    const auto mix = [share](const glm::dvec4& a, const glm::dvec4& b) { return a * (1.0 - share) + b * share; };
-    if (finer.is_flat && coarser.is_flat) {
-      const Patch& a = finer.patch;
-      const Patch& b = coarser.patch;
-      return spread({mix(a.value, b.value), mix(a.along_u, b.along_u), mix(a.along_v, b.along_v), mix(a.twist, b.twist)});
-    }
-    Looks looks;
-    for (const auto& [fine, coarse] : pair(mixed->first).values) {
-      looks.include(mix(fine, coarse));
-    }
-    return looks.spread();
+  const Level& finer = level(mixture.first);
+  const Level& coarser = level(mixture.first + 1.0);
+  if (finer.is_flat && coarser.is_flat) {
+    const Patch& a = finer.patch;
+    const Patch& b = coarser.patch;
+    return spread({mix(a.value, b.value), mix(a.along_u, b.along_u), mix(a.along_v, b.along_v), mix(a.twist, b.twist)});
+  }
+  const std::vector<std::array<glm::dvec4, 2>>& values = pair(mixture.first).values;
+  const glm::dvec4 value = mix(values.front()[0], values.front()[1]);
+  Extent<glm::dvec4> all{value, value};
+  for (const auto& [fine, coarse] : values) {
+    all.include(mix(fine, coarse));
+  }
+  return spread(value, all);
+}
+
+Spread TextureBox::operator()(double lambda) {
+  if (const std::optional<Mixture> mixture = golden::mixture(texture_, lambda)) {
+    return mixed(*mixture);
   }
   LevelReader read = unmixed(texture_, lambda);
   if (const std::optional<Patch> patch = read.patch(uv_, off_)) {
     return spread(*patch);
   }
-  Looks looks;
-  at_places(read, nullptr, [&](const glm::dvec2& at) { looks.include(read(at)); });
-  return looks.spread();
+  return spread(read(uv_), is_wide(read.level()) ? over_texels(unmixed_level(texture_, lambda), read) : read.extent(uv_, off_));
 }
 
 }  // namespace sheen::golden

@@ -20,8 +20,8 @@ struct Spread {
 
 /// What a texture may give at coordinates that lie within `reach` of uv along either axis: at the corners of that box and wherever in it
 /// the filter has an edge (nearest) or a bend (linear), between which it is bilinear and so has no extremes; of a box over many texels, all
-/// that the level holds; with a shader's roundings in highp of the filter's arithmetic. Each mipmap level that is mixed with another is
-/// read once, however often it is asked for.
+/// that these are; with a shader's roundings in highp of the filter's arithmetic. Each mipmap level that is mixed with another is read
+/// once, however often it is asked for.
 class TextureBox {
  public:
   /// The texture must outlive this.
@@ -36,8 +36,8 @@ class TextureBox {
     double first = 0;
     std::vector<std::array<glm::dvec4, 2>> values;
   };
-  /// A box of more texels than this along an axis is no longer looked at bend by bend: a few hundred samples.
-  static constexpr int widest_box = 16;
+  /// A box of more texels than this along an axis is not looked at bend by bend, but for the texels of blocks that hold it.
+  static constexpr int widest_box = 6;
   /// Coordinates along one axis to look at: both ends, up to two a texel and one more of a level, and of the next, half as fine.
   struct Places {
     std::array<double, 4 * widest_box> at;
@@ -45,16 +45,17 @@ class TextureBox {
 
     void add_between(double from, double to, double texels, scene::Filter filter);
   };
-  bool is_wide(double level) const;
+  bool is_wide(const scene::Texels& level) const;
   template <class Look>
-  void at_places(const LevelReader& finer, const LevelReader* coarser, const Look& look) const;
+  void at_places(const LevelReader& finer, const LevelReader& coarser, const Look& look) const;
   struct Level {
     bool is_flat;
     Patch patch;  // about uv, if it is
   };
   const Level& level(double number);
   const Pair& pair(double first);
-  Spread over_levels(double lambda) const;
+  Extent<glm::dvec4> over_texels(double number, const LevelReader& reader) const;
+  Spread mixed(const Mixture& mixture);
 
   const Texture& texture_;
   glm::dvec2 uv_, off_;

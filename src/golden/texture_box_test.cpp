@@ -87,15 +87,16 @@ TEST(TextureBox, HoldsBothLevelsThatAreMixedOverAWideBox) {
   EXPECT_LE(spread.value.x + spread.radius.x, 1.0 / 8.0);
 }
 
-TEST(TextureBox, HoldsAllOfATextureWhoseTexelsAreTooMany) {
+TEST(TextureBox, HoldsTheTexelsOfAWideBoxAndFewBeside) {
   scene::Scene s;
   test::add_texture(s, test::picture(512, 4, [](int x, int) { return glm::ivec4(x == 300 ? 255 : 51, 102, 102, 255); }),
                     {scene::Wrap::Repeat, scene::Wrap::Repeat, scene::Filter::Nearest, scene::Filter::Nearest, scene::MipFilter::None});
   const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Linear);
-  const Spread spread = TextureBox(texture, {0.5, 0.5}, {20.0 / 512, 0.1})(3.0);
+  const Spread spread = TextureBox(texture, {0.5, 0.5}, {50.0 / 512, 0.1})(3.0);
   EXPECT_EQ(spread.value, sample(texture, {0.5, 0.5}, 3.0));
   EXPECT_NEAR(spread.radius.x, 0.8, 1e-5);
   EXPECT_NEAR(spread.radius.y, 0.0, 1e-5);
+  EXPECT_NEAR(TextureBox(texture, {0.5, 0.5}, {30.0 / 512, 0.1})(3.0).radius.x, 0.0, 1e-5) << "14 texels off";
 }
 
 }  // namespace
