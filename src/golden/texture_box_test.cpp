@@ -87,6 +87,17 @@ TEST(TextureBox, HoldsBothLevelsThatAreMixedOverAWideBox) {
   EXPECT_LE(spread.value.x + spread.radius.x, 1.0 / 8.0);
 }
 
+// The finer level's texels end at the 39th column; the coarser one's last reaches over the 40th and 41st.
+TEST(TextureBox, HoldsWhatTheCoarserLevelSeesBeyondTheFinerOnesTexels) {
+  scene::Scene s;
+  test::add_texture(s, test::picture(64, 64, [](int x, int) { return glm::ivec4(glm::ivec3(x == 40 || x == 41 ? 255 : 0), 255); }));
+  const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Linear);
+  const double high = 39.4 / 64;
+  const double reach = 5.0 / 64;
+  const Spread spread = TextureBox(texture, {high - reach, 0.5}, {reach, 0.01})(0.5);
+  EXPECT_GE(spread.value.x + spread.radius.x, 0.1) << "of which the mixture has half of a fifth";
+}
+
 TEST(TextureBox, HoldsTheTexelsOfAWideBoxAndFewBeside) {
   scene::Scene s;
   test::add_texture(s, test::picture(512, 4, [](int x, int) { return glm::ivec4(x == 300 ? 255 : 51, 102, 102, 255); }),
