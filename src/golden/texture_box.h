@@ -1,9 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -31,37 +29,22 @@ class TextureBox {
   Spread operator()(double lambda);
 
  private:
-  // Two neighbouring levels at the places to look at, uv first.
-  struct Pair {
-    double first = 0;
-    std::vector<std::array<glm::dvec4, 2>> values;
-  };
   /// A box of more texels than this along an axis is not looked at bend by bend, but for the texels of blocks that hold it.
   static constexpr int widest_box = 6;
-  /// Coordinates along one axis to look at: both ends, up to two a texel and one more of a level, and of the next, half as fine.
-  struct Places {
-    std::array<double, 4 * widest_box> at;
-    std::size_t count;
-
-    void add_between(double from, double to, double texels, scene::Filter filter);
-  };
-  bool is_wide(const scene::Texels& level) const;
-  template <class Look>
-  void at_places(const LevelReader& finer, const LevelReader& coarser, const Look& look) const;
+  /// One level by one filter.
   struct Level {
+    glm::dvec4 value, below, above;  // at uv, and how far what is found about it lies on either side
     bool is_flat;
-    Patch patch;  // about uv, if it is
+    Patch patch;  // if it is
   };
-  const Level& level(double number);
-  const Pair& pair(double first);
-  Extent<glm::dvec4> over_texels(double number, const LevelReader& reader) const;
+  Level look(LevelReader read, double number) const;
+  const Level& minified_level(double number);
   Spread mixed(const Mixture& mixture);
 
   const Texture& texture_;
   glm::dvec2 uv_, off_;
   std::array<Level, 32> levels_;  // by number, of those that are mixed: with more than these a side would have 2^32 texels
   std::uint32_t known_ = 0;       // a bit for each that was read
-  std::vector<Pair> pairs_;       // of those with an edge or a bend
 };
 
 }  // namespace sheen::golden

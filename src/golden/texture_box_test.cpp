@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
@@ -35,16 +36,28 @@ TEST(TextureBox, HoldsEveryCoordinateInsideAndReachesWhatTheyReach) {
           const double lambda = 2.0 * within(random);
           const Spread spread = TextureBox(texture, uv, {reach, 0.5 * reach})(lambda);
           EXPECT_EQ(spread.value, sample(texture, uv, lambda));
-          glm::dvec4 farthest(0.0);
+          std::vector<glm::dvec2> places;
           for (int k = 0; k < 400; ++k) {
             const glm::dvec2 to = k < 4 ? glm::dvec2(k % 2 == 0 ? 1 : -1, k < 2 ? 1 : -1) : glm::dvec2(within(random), within(random));
-            const glm::dvec4 there = sample(texture, uv + glm::dvec2(reach, 0.5 * reach) * to, lambda);
-            farthest = glm::max(farthest, glm::abs(there - spread.value));
+            places.push_back(uv + glm::dvec2(reach, 0.5 * reach) * to);
           }
+          const auto farthest = [&](double level) {
+            glm::dvec4 most(0.0);
+            for (const glm::dvec2& place : places) {
+              most = glm::max(most, glm::abs(sample(texture, place, level) - sample(texture, uv, level)));
+            }
+            return most;
+          };
+          const glm::dvec4 found = farthest(lambda);
+          // Where levels are mixed, each may do its worst at a place of its own.
+          const double share = lambda - std::floor(lambda);
+          const glm::dvec4 apart = mip == MipFilter::Linear && lambda > 0.0
+                                       ? farthest(std::floor(lambda)) * (1.0 - share) + farthest(std::floor(lambda) + 1.0) * share
+                                       : found;
           for (int c = 0; c < 4; ++c) {
-            EXPECT_LE(farthest[c], spread.radius[c]) << reach;
+            EXPECT_LE(found[c], spread.radius[c]) << reach;
             if (filter == Filter::Linear && reach < 0.1) {
-              EXPECT_LE(spread.radius[c], 1.3 * farthest[c] + 1e-4) << "not much wider: " << reach;
+              EXPECT_LE(spread.radius[c], 1.3 * apart[c] + 1e-4) << "not much wider: " << reach;
             }
           }
         }
@@ -83,8 +96,9 @@ TEST(TextureBox, HoldsBothLevelsThatAreMixedOverAWideBox) {
       s, test::picture(512, 512, [](int x, int y) { return glm::ivec4(glm::ivec3(x / 2 == 100 && y / 2 == 100 ? 255 : 0), 255); }));
   const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Linear);
   const Spread spread = TextureBox(texture, {0.7, 0.7}, {0.2, 0.2})(3.5);
-  EXPECT_GE(spread.value.x + spread.radius.x, 1.0 / 16.0) << "level 3 has the mean of 64 texels, 4 of them bright";
-  EXPECT_LE(spread.value.x + spread.radius.x, 1.0 / 8.0);
+  const double mixed = 0.5 * (1.0 / 16.0 + 1.0 / 64.0);  // level 3 has the mean of 64 texels, 4 of them bright, level 4 that of 256
+  EXPECT_GE(spread.value.x + spread.radius.x, mixed);
+  EXPECT_LE(spread.value.x + spread.radius.x, mixed + 1e-5);
 }
 
 // The finer level's texels end at the 39th column; the coarser one's last reaches over the 40th and 41st.
