@@ -86,21 +86,36 @@ void take_narrower(brdf::Rgb<Forms>& c, const number::FloatMask& lanes, const br
 }
 
 /// Whether a normal map leaves a normal open, by more than narrow lobes care for and far more than a displaced sample moves it and the
-/// view.
+/// view; or textures a roughness or a colour, by a good part of it.
 number::FloatMask is_wide(const Surface<Forms>& surface, Layers layers) {
   using number::FloatBatch;
   constexpr float narrow = 0.005F;  // radians
+  constexpr float part = 0.25F;
   const auto moved = [](const Vec3<Forms>& v) { return v.x.displacement() + v.y.displacement() + v.z.displacement(); };
   const auto open = [](const Vec3<Forms>& v) { return v.x.radius() + v.y.radius() + v.z.radius(); };
   const FloatBatch view = moved(surface.view);
   const auto opens = [&](const Vec3<Forms>& n) { return open(n) > xsimd::max(FloatBatch(narrow), FloatBatch(4.0F) * (moved(n) + view)); };
-  return layers.clearcoat ? opens(surface.normal) | opens(surface.coat_normal) : opens(surface.normal);
+  const auto is_vague = [](const Forms& x) { return x.spread() > FloatBatch(part) * xsimd::abs(x.center()); };
+  const auto is_vague_color = [&](const brdf::Rgb<Forms>& c) { return is_vague(c.r) | is_vague(c.g) | is_vague(c.b); };
+  number::FloatMask wide = opens(surface.normal) | is_vague(surface.base.alpha) | is_vague_color(surface.base.color);
+  if (layers.sheen) {
+    wide = wide | is_vague_color(surface.sheen_color);
+  }
+  if (layers.clearcoat) {
+    wide = wide | opens(surface.coat_normal) | is_vague(surface.coat_alpha);
+  }
+  return wide;
 }
 
-/// Whether a light adds more uncertainty than there is light with it, in some channel; or a lane is lost by it.
-number::FloatMask is_open(const brdf::Rgb<Forms>& before, const brdf::Rgb<Forms>& after) {
-  const auto opens = [](const Forms& x, const Forms& y) { return ~x.is_lost() & ~(y.spread() - x.spread() <= xsimd::abs(y.center())); };
-  return opens(before.r, after.r) | opens(before.g, after.g) | opens(before.b, after.b);
+/// Whether a light adds more uncertainty than there is light with it, in some channel; or a lane is lost by it. Not where it is as good as
+/// nothing of the light that arrives: what a division by highp's rules may make of 0.
+number::FloatMask is_open(const brdf::Rgb<Forms>& before, const brdf::Rgb<Forms>& after, const brdf::Rgb<Forms>& irradiance) {
+  using number::FloatBatch;
+  constexpr float nothing = 0x1p-64F;
+  const auto opens = [](const Forms& x, const Forms& y, const Forms& e) {
+    return ~x.is_lost() & ~(y.spread() - x.spread() <= xsimd::max(xsimd::abs(y.center()), FloatBatch(nothing) * xsimd::abs(e.center())));
+  };
+  return opens(before.r, after.r, irradiance.r) | opens(before.g, after.g, irradiance.g) | opens(before.b, after.b, irradiance.b);
 }
 
 /// What `careful` gives of a half where one of its lanes is among these, else the sum's.
@@ -136,12 +151,24 @@ brdf::Rgb<Forms> shade_by_forms(const EightOf<Surface>& surfaces, Layers layers,
   brdf::Rgb<Forms> no_lookup;
   brdf::Rgb<Many> none;
   brdf::Rgb<Ranges> no_ranges;
+  bool forms_serve = true;
   for (std::size_t i = 0; i < lighting.light_count; ++i) {
-    brdf::Rgb<Forms> sum = with(radiance, quick.light(arriving(lighting.lights[i], forms.position), false, no_lookup));
-    number::FloatMask open = is_open(radiance, sum);
+    brdf::Rgb<Forms> sum = radiance;
+    number::FloatMask open = wide;
+    if (forms_serve) {
+      const Arriving<Forms> light = arriving(lighting.lights[i], forms.position);
+      sum = with(radiance, quick.light(light, false, no_lookup));
+      open = is_open(radiance, sum, light.irradiance);
+    }
     if (xsimd::any(open & wide)) {
       const auto part = coarse->light(arriving(lighting.lights[i], ranges->position), false, no_ranges);
-      take_narrower(sum, open & wide, with_light(radiance, layers, forms_of(part.sheen), forms_of(part.base), forms_of(part.coat)));
+      const brdf::Rgb<Forms> by_ranges = with_light(radiance, layers, forms_of(part.sheen), forms_of(part.base), forms_of(part.coat));
+      if (forms_serve) {
+        forms_serve = !xsimd::all(wide & lost(sum));  // else they are not asked for the lights to come
+        take_narrower(sum, open & wide, by_ranges);
+      } else {
+        sum = by_ranges;
+      }
       open = open & (~wide | lost(sum));
     }
     radiance = instead_of(sum, open, [&](std::size_t half) {

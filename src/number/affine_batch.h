@@ -13,7 +13,7 @@ namespace sheen::number {
 /// clear of the points where formulas branch, in a fraction of BoundedBatch's arithmetic. A lane whose result depends on more (a comparison
 /// that may go either way, a function at the end of where it is defined, a range beyond the format) is lost, and so is all that comes of
 /// it: it is to be evaluated on BoundedBatch. What is not lost encloses all that number::Bounded's own form does; what two exact numbers
-/// make is taken to be rounded. Centres are off what double would make of them, by less than the radius.
+/// make is taken to be rounded, unless it is 0. Centres are off what double would make of them, by less than the radius.
 class AffineBatch {
  public:
   using Bounds = BoundedBatch<Highp>;
@@ -84,6 +84,7 @@ class AffineBatch {
     AffineBatch difference;
     difference.round(a.center_ - b.center_, a.shift_x_ - b.shift_x_, a.shift_y_ - b.shift_y_, a.radius_ + b.radius_);
     if (xsimd::any(xsimd::min(a.magnitude(), b.magnitude()) == FloatBatch(0.0F))) difference.keep_summand(a, -b);
+    if (xsimd::any(a.center_ == b.center_)) difference.keep_cancelled(a, b);
     return difference;
   }
 
@@ -229,6 +230,11 @@ class AffineBatch {
   [[gnu::noinline]] void keep_summand(const AffineBatch& a, const AffineBatch& b) {
     take(a.magnitude() == FloatBatch(0.0F), b);
     take(b.magnitude() == FloatBatch(0.0F), a);
+  }
+
+  /// Of two exact numbers that are the same nothing is left.
+  [[gnu::noinline]] void keep_cancelled(const AffineBatch& a, const AffineBatch& b) {
+    take((a.center_ == b.center_) & a.is_exact() & b.is_exact(), AffineBatch(0.0));
   }
 
   /// Nor does a power of two round what stays a normal number.

@@ -161,6 +161,8 @@ TEST(AffineBatch, RoundsNothingWhereBoundsDoNot) {
   EXPECT_TRUE(lane(x * Form(0.0)).is_exact());
   EXPECT_TRUE(lane(Form(0.0) * Form(0.3)).is_exact());
   EXPECT_TRUE(lane(Form(0.5)).is_exact());
+  EXPECT_TRUE(lane(Form(0.5) - Form(0.5)).is_exact());
+  EXPECT_FALSE(lane(Form(0.3) - Form(0.3)).is_exact()) << "either may stand for another neighbour";
   EXPECT_FALSE(lane(Form(0.3)).is_exact());
   EXPECT_TRUE(lane(max(x, Form(2.0))).is_exact());
   const Form faint = form_of(Single::within(0x1.8p-126, 0x1p-140));
