@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "albedo/ggx_table.h"
 #include "albedo/lookup_error.h"
@@ -75,7 +76,14 @@ struct AlbedoReader<number::Bounded<Precision>> {
   static double most_loss(double alpha) { return 0.11 + 0.59 * std::min(alpha, 1.0); }
   static constexpr double more_bias = 0.005;
 
+  // What changing a cosine and an alpha of at least so much brings beyond what either does, for each product of their shares: of a loss
+  // relative to it, of a bias absolutely (bounded_albedo_test.cpp).
+  static constexpr double least_alpha_of_changes = 1e-6;
+  static constexpr double loss_changes_together = 8;
+  static constexpr double bias_changes_together = 0.4;
+
  private:
+  static double not_known(double /*value*/) { return std::numeric_limits<double>::infinity(); }
   enum class End { Lower, Center, Upper };
   /// Of a range whose ends differ by more than hundredths.
   static bool is_wide_roughness(const B& roughness) { return roughness.range().upper > 1.05 * roughness.range().lower; }
@@ -102,16 +110,18 @@ struct AlbedoReader<number::Bounded<Precision>> {
       }
     };
     const auto error = [](double value, double c, double r) { return albedo::lookup_error(value, c, r); };
-    return read(e, across, turn, cosine.range().lower < albedo::decreasing_from, error, cosine, roughness);
+    return read(e, across, turn, cosine.range().lower < albedo::decreasing_from, error, not_known, cosine, roughness);
   }
 
   /// @param turn      includes what f may be between the ends of a wide range where it turns
   /// @param may_turn  whether it may do so in a narrow one
   /// @param across    f at any roughness
+  /// @param together  what a small change of both arguments brings beyond that of either, times their shares, where f has a value; infinite
+  ///                  where that is not known
   /// @param least_y   below which f does not change with y
-  template <class Function, class Across, class Turn, class Error>
-  static B read(const Function& f, const Across& across, const Turn& turn, bool may_turn, const Error& error, const B& x, const B& y,
-                double least_y = 1e-3) {
+  template <class Function, class Across, class Turn, class Error, class Together>
+  static B read(const Function& f, const Across& across, const Turn& turn, bool may_turn, const Error& error, const Together& together,
+                const B& x, const B& y, double least_y = 1e-3) {
     if (!x.is_bounded() || !y.is_bounded()) {
       return B::unbounded(0.0);  // their centres need not be numbers
     }
@@ -133,8 +143,22 @@ struct AlbedoReader<number::Bounded<Precision>> {
       reach(there);
       remainder = std::max(remainder, std::abs(there - value - slope * (cosine - x.center())));
     };
+    double low = value;
+    double high = value;
+    const double both = wide || lopsided || is_wide_roughness(y)
+                            ? std::numeric_limits<double>::infinity()
+                            : together(value) * width / std::max(x.range().lower, albedo::min_n_dot_v) * share_of(y);
+    // Returns f at the centre of x.
     const auto include_ends = [&](End end) {
-      include(x.center(), f(x.center(), end));
+      const double there = f(x.center(), end);
+      include(x.center(), there);
+      if (std::isfinite(both)) {
+        for (const double sign : {-1.0, 1.0}) {
+          include(x.range().lower, low + (there - value) + sign * both);
+          include(x.range().upper, high + (there - value) + sign * both);
+        }
+        return there;
+      }
       include(x.range().lower, f(x.range().lower, end));
       if (width > 0) {
         include(x.range().upper, f(x.range().upper, end));
@@ -142,10 +166,11 @@ struct AlbedoReader<number::Bounded<Precision>> {
       if (lopsided) {
         include(middle, across(middle, end == End::Lower ? y.range().lower : y.range().upper));
       }
+      return there;
     };
     if (width > 0) {
-      const double low = f(x.range().lower, End::Center);
-      const double high = f(x.range().upper, End::Center);
+      low = f(x.range().lower, End::Center);
+      high = f(x.range().upper, End::Center);
       slope = wide ? 0.0 : (high - low) / width;
       include(x.range().lower, low);
       include(x.range().upper, high);
@@ -155,10 +180,10 @@ struct AlbedoReader<number::Bounded<Precision>> {
     }
     const double bend = remainder;
     if (!y.is_exact()) {
-      include_ends(End::Lower);
-      include_ends(End::Upper);
+      const double at_lower = include_ends(End::Lower);
+      const double at_upper = include_ends(End::Upper);
       // What lies between three places of a parabola is beyond them by half of this at the most.
-      const double across_bend = 0.25 * std::abs(f(x.center(), End::Lower) + f(x.center(), End::Upper) - 2.0 * value);
+      const double across_bend = 0.25 * std::abs(at_lower + at_upper - 2.0 * value);
       highest += across_bend;
       lowest = std::max(0.0, lowest - across_bend);
       remainder += across_bend;
@@ -282,7 +307,7 @@ struct AlbedoReader<number::Bounded<Precision>> {
     const bool is_wide_alpha = is_wide_roughness(alpha);
     const double changes = changes_with_alpha * share_of(alpha);
     Once<Albedo> once(albedo);
-    const auto of = [&](double brdf::LobeAlbedo<double>::*member, const auto& size, const auto& error) {
+    const auto of = [&](double brdf::LobeAlbedo<double>::*member, const auto& size, double most_together, const auto& error) {
       once.begin();
       const auto f = [&](double c, double a) { return once(c, a).*member; };
       const auto at = at_ends(f, alpha);
@@ -298,13 +323,17 @@ struct AlbedoReader<number::Bounded<Precision>> {
                           include(std::max(0.0, there - more * size(there)));
                         });
       };
-      return read(at, f, turn, true, error, cosine, alpha, albedo::mirror_alpha);
+      const auto together = [&](double there) {
+        return alpha.range().lower >= least_alpha_of_changes ? most_together * size(there) : not_known(there);
+      };
+      return read(at, f, turn, true, error, together, cosine, alpha, albedo::mirror_alpha);
     };
     const auto loss = of(
-        &brdf::LobeAlbedo<double>::loss, [](double there) { return there; },
+        &brdf::LobeAlbedo<double>::loss, [](double there) { return there; }, loss_changes_together,
         [](double there, double, double) { return loss_error(there); });
     const auto bias = of(
-        &brdf::LobeAlbedo<double>::bias, [](double) { return 1.0; }, [](double, double, double) { return bias_error(); });
+        &brdf::LobeAlbedo<double>::bias, [](double) { return 1.0; }, bias_changes_together,
+        [](double, double, double) { return bias_error(); });
     return {loss, bias};
   }
 
@@ -322,7 +351,8 @@ struct AlbedoReader<number::Bounded<Precision>> {
         }
       };
       const B one_alpha = alpha.is_bounded() ? B(1) : alpha;
-      return read([&f](double c, End) { return f(c); }, [&f](double c, double) { return f(c); }, turn, true, error, cosine, one_alpha);
+      return read([&f](double c, End) { return f(c); }, [&f](double c, double) { return f(c); }, turn, true, error, not_known, cosine,
+                  one_alpha);
     };
     return {of([&](double c) { return around.at(c).loss; }, around.loss,
                [&](double loss, double, double) { return loss_error(loss) + changes * loss; }),

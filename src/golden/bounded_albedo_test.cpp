@@ -230,5 +230,32 @@ TEST(BoundedAlbedo, OfThePhysicalModelChangeNoMoreWithAlphaThanIsCounted) {
   EXPECT_LT(bias, changes_with_alpha);
 }
 
+TEST(BoundedAlbedo, OfThePhysicalModelChangeNoMoreWithBothArgumentsThanIsCounted) {
+  const albedo::GgxInterpolant ggx;
+  double loss = 0;
+  double bias = 0;
+  constexpr double share = 0.01;
+  for (int a = 0; a < 120; ++a) {
+    const double alpha = std::pow(Reader::least_alpha_of_changes, a / 119.0) * (1 - share);
+    for (int c = 0; c <= 120; ++c) {
+      const double cosine = std::pow(10.0, -4 * c / 120.0) * (1 - share);
+      const auto here = ggx(cosine, alpha);
+      for (const double along : {-share, share}) {
+        for (const double across : {-share, share}) {
+          const auto one = ggx(cosine * (1 + along), alpha);
+          const auto other = ggx(cosine, alpha * (1 + across));
+          const auto both = ggx(cosine * (1 + along), alpha * (1 + across));
+          loss = std::max(loss, std::abs(both.loss - one.loss - other.loss + here.loss) / here.loss);
+          bias = std::max(bias, std::abs(both.bias - one.bias - other.bias + here.bias));
+        }
+      }
+    }
+  }
+  EXPECT_LT(loss, Reader::loss_changes_together * share * share);
+  EXPECT_GT(loss, 0.2 * Reader::loss_changes_together * share * share) << "and the figure is not beside the matter";
+  EXPECT_LT(bias, Reader::bias_changes_together * share * share);
+  EXPECT_GT(bias, 0.2 * Reader::bias_changes_together * share * share);
+}
+
 }  // namespace
 }  // namespace sheen::golden
