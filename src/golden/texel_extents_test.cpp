@@ -18,9 +18,10 @@ TEST(TexelExtents, HoldEveryTexelOfABlockHoweverItWraps) {
   int exact = 0;
   for (const auto& [width, height] : {std::pair(37, 18), std::pair(64, 64), std::pair(5, 1), std::pair(1, 90)}) {
     scene::Texels level{width, height, {}};
-    for (int i = 0; i < width * height; ++i) {
-      level.rgba.emplace_back(std::uniform_real_distribution<float>(0.0F, 1.0F)(random), static_cast<float>(i % width),
-                              static_cast<float>(i / width), 1.0F);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        level.rgba.emplace_back(std::uniform_real_distribution<float>(0.0F, 1.0F)(random), x, y, 1.0F);
+      }
     }
     const TexelExtents extents(level);
     for (const scene::Wrap wrap : {scene::Wrap::Repeat, scene::Wrap::ClampToEdge, scene::Wrap::MirroredRepeat}) {

@@ -101,8 +101,10 @@ TEST(Texture, MagnificationReachesHalfALevelFurtherOverUnfilteredMipmaps) {
 
 TEST(Texture, LevelRangeIsWhatTheSpecificationAllows) {
   glm::dvec2 texels[9];
-  for (int i = 0; i < 9; ++i) {
-    texels[i] = glm::dvec2(3.0 * (i % 3) + 1.0 * (i / 3), -2.0 * (i % 3) + 4.0 * (i / 3));
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      texels[3 * row + column] = glm::dvec2(3.0 * column + 1.0 * row, -2.0 * column + 4.0 * row);
+    }
   }
   const TexelSpans spans = texel_spans(texels);
   EXPECT_DOUBLE_EQ(spans.ideal, std::sqrt(17.0));

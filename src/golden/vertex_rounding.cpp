@@ -34,7 +34,7 @@ std::array<glm::dvec3, 3> position_magnitudes(const Geometry& geometry, const Ra
   return out;
 }
 
-VertexRounding::VertexRounding(const Geometry& geometry, const RayGenerator& rays, std::uint32_t triangle) : largest_(0.0) {
+VertexRounding::VertexRounding(const Geometry& geometry, const RayGenerator& rays, std::uint32_t triangle) {
   const std::array<glm::dvec3, 3> magnitudes = position_magnitudes(geometry, rays, triangle);
   const scene::Camera& camera = rays.camera();
   const glm::dmat3 view = view_from_world(rays);
@@ -48,7 +48,6 @@ VertexRounding::VertexRounding(const Geometry& geometry, const RayGenerator& ray
     const glm::dvec2 clip(per_height / aspect * (transform_roundings * m.x + 4.5 * p.x) + w,
                           per_height * (transform_roundings * m.y + 4.5 * p.y) + w);
     of_vertices_.at(i) = 0.5 * epsilon * glm::dvec2(rays.width(), rays.height()) * clip;
-    largest_ = glm::max(largest_, m);
   }
 }
 

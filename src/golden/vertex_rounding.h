@@ -28,12 +28,9 @@ class VertexRounding {
 
   /// How far along either axis a sample at a hit of it may be displaced, in pixels.
   double in_window(const RayGenerator& rays, const Hit& hit) const;
-  /// The largest of position_magnitudes().
-  const glm::dvec3& largest_magnitude() const { return largest_; }
 
  private:
   std::array<glm::dvec2, 3> of_vertices_;  // in pixels times depth
-  glm::dvec3 largest_;
 };
 
 }  // namespace sheen::golden
