@@ -113,7 +113,8 @@ number::FloatMask is_open(const brdf::Rgb<Forms>& before, const brdf::Rgb<Forms>
   using number::FloatBatch;
   constexpr float nothing = 0x1p-64F;
   const auto opens = [](const Forms& x, const Forms& y, const Forms& e) {
-    return ~x.is_lost() & ~(y.spread() - x.spread() <= xsimd::max(xsimd::abs(y.center()), FloatBatch(nothing) * xsimd::abs(e.center())));
+    const FloatBatch enough = xsimd::max(xsimd::abs(y.center()), FloatBatch(nothing) * xsimd::abs(e.center()));
+    return ~x.is_lost() & (y.is_lost() | ~(y.spread() - x.spread() <= enough));
   };
   return opens(before.r, after.r, irradiance.r) | opens(before.g, after.g, irradiance.g) | opens(before.b, after.b, irradiance.b);
 }

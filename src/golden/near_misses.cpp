@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -12,6 +13,25 @@
 
 namespace sheen::golden {
 namespace {
+
+RayGenerator between_farther_planes(const Frame& frame) {
+  scene::Camera camera = frame.rays.camera();
+  camera.znear -= 2.0 * frame.tracer.depth_tolerance(camera.znear);
+  if (std::isfinite(camera.zfar)) {
+    camera.zfar += 2.0 * frame.tracer.depth_tolerance(camera.zfar);
+  }
+  return {camera, frame.rays.width(), frame.rays.height()};
+}
+
+// Whether some depth of a range may be at a clip plane, within what a depth buffer tells: beyond a plane by a difference that grows more
+// slowly than the tolerance, which at very great depths exceeds it again.
+bool may_be_at_clip_plane(const Frame& frame, double nearest, double farthest) {
+  const scene::Camera& camera = frame.rays.camera();
+  const auto is_within = [&](double depth, double plane) { return std::abs(depth - plane) <= frame.tracer.depth_tolerance(depth); };
+  const bool reaches_near = farthest >= camera.znear || is_within(farthest, camera.znear);
+  const bool at_near = reaches_near && (nearest <= camera.znear || is_within(nearest, camera.znear) || is_within(farthest, camera.znear));
+  return at_near || farthest >= camera.zfar || is_within(farthest, camera.zfar);
+}
 
 // Of a pixel, what triangles do, which are gone through side by side.
 constexpr std::uint8_t missed = 1;
@@ -78,6 +98,7 @@ void NearMisses::add(const Frame& frame, std::uint32_t triangle, std::vector<Nea
   if (a == b || b == c || c == a) {
     return;
   }
+  const bool is_noted = note_at_clip_plane(frame, triangle);
   const std::vector<WindowPoint> polygon = window_polygon(frame.geometry, frame.rays, triangle);
   if (polygon.empty()) {
     return;
@@ -115,7 +136,7 @@ void NearMisses::add(const Frame& frame, std::uint32_t triangle, std::vector<Nea
     const std::pair<int, int> covered = turns ? std::pair(0, 0) : touched(y, 0.0);
     const auto is_covered = [&covered](int x) { return x >= covered.first && x < covered.second; };
     const std::pair<int, int> neared = touched(y, near);
-    for (int x = neared.first; x < neared.second; ++x) {
+    for (int x = neared.first; x < neared.second && !is_noted; ++x) {
       note(pixel_at(x, y, width), is_covered(x));
     }
     if (neared == covered) {
@@ -130,6 +151,32 @@ void NearMisses::add(const Frame& frame, std::uint32_t triangle, std::vector<Nea
   }
 }
 
+// A triangle that may be at a clip plane is missed wherever it would be seen without: whether it is there is not its edges' matter alone.
+bool NearMisses::note_at_clip_plane(const Frame& frame, std::uint32_t triangle) {
+  double nearest = std::numeric_limits<double>::infinity();
+  double farthest = -nearest;
+  for (const std::uint32_t vertex : frame.geometry.vertices(triangle)) {
+    const double depth = frame.rays.depth(frame.geometry.positions()[vertex]);
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  if (!may_be_at_clip_plane(frame, nearest, farthest)) {
+    return false;
+  }
+  const std::vector<WindowPoint> polygon = window_polygon(frame.geometry, beyond_, triangle);
+  if (!polygon.empty()) {
+    const double within = std::max(1.0, near_steps * displacement(frame.settings));
+    const std::pair<int, int> columns = pixels(extent(polygon, 0), within, beyond_.width());
+    const std::pair<int, int> rows = pixels(extent(polygon, 1), within, beyond_.height());
+    for (int y = rows.first; y < rows.second; ++y) {
+      for (int x = columns.first; x < columns.second; ++x) {
+        note(pixel_at(x, y, width_), false);
+      }
+    }
+  }
+  return true;
+}
+
 void NearMisses::note(std::uint64_t pixel, bool is_covered) {
   const auto add = [&](std::uint8_t bit) { return seen_[pixel].fetch_or(bit, std::memory_order_relaxed); };
   if (!is_covered) {
@@ -140,7 +187,9 @@ void NearMisses::note(std::uint64_t pixel, bool is_covered) {
 }
 
 NearMisses::NearMisses(const Frame& frame)
-    : width_(frame.rays.width()), seen_(static_cast<std::size_t>(frame.rays.width()) * static_cast<std::size_t>(frame.rays.height())) {
+    : width_(frame.rays.width()),
+      beyond_(between_farther_planes(frame)),
+      seen_(static_cast<std::size_t>(frame.rays.width()) * static_cast<std::size_t>(frame.rays.height())) {
   constexpr std::size_t at_once = 1024;  // triangles
   const std::size_t count = frame.geometry.triangle_count();
   std::vector<std::vector<NearMiss>> parts((count + at_once - 1) / at_once);

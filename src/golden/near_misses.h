@@ -34,14 +34,17 @@ class NearMisses {
   };
   Range at(int x, int y) const;
 
-  /// Whether at most one triangle comes within near_steps times displacement() of a pixel's centre, along both axes, and then covers it.
+  /// Whether at most one triangle comes within near_steps times displacement() of a pixel's centre, along both axes, and then covers it,
+  /// and lies between the clip planes for certain.
   bool has_one_triangle(int x, int y) const;
 
  private:
   void add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& misses);
   void note(std::uint64_t pixel, bool is_covered);
+  bool note_at_clip_plane(const Frame& frame, std::uint32_t triangle);
 
   int width_;
+  RayGenerator beyond_;  // of a camera whose clip planes lie farther apart, by what a depth buffer may take them for
   std::vector<std::atomic<std::uint8_t>> seen_;  // by pixel, bits
   std::vector<NearMiss> misses_;                 // by pixel
 };

@@ -63,5 +63,32 @@ TEST(NearMisses, KnowWhereOneTriangleAloneIsNear) {
   EXPECT_GT(others, 2000);
 }
 
+// A strip at the near plane, on the side that a depth buffer may or may not see, hides a wall; its edge lies beside pixels' centres.
+TEST(NearMisses, KnowOfATriangleAtAClipPlane) {
+  constexpr int across = 32;
+  const auto alone_beside_a_strip_at = [](double depth) {
+    scene::Scene s = test::scene_with(test::square(9.0, -4.0), {}, test::camera_at(0.0, 1.5), {});
+    s.cameras[0].znear = 1.0;
+    scene::Primitive strip = test::square(1.0, -depth);
+    for (glm::vec3& p : strip.positions) {
+      p.x = 0.5F * p.x + 0.6F;
+    }
+    test::add(s, strip, {});
+    const Settings settings = test::settings_for(across, across, true);
+    const Frame frame(s, settings);
+    const NearMisses misses(frame);
+    int alone = 0;
+    for (int x = 0; x < across; ++x) {
+      alone += misses.has_one_triangle(x, across / 2 + 3) ? 1 : 0;
+    }
+    return alone;
+  };
+  EXPECT_EQ(alone_beside_a_strip_at(0.9), across - 1) << "before the plane for certain, on the wall's diagonal once";
+  const int beside = alone_beside_a_strip_at(1.0 - 0x1p-23);
+  EXPECT_LT(beside, across - 8);
+  EXPECT_GT(beside, 0);
+  EXPECT_LT(alone_beside_a_strip_at(1.0 + 0x1p-23), across - 8);
+}
+
 }  // namespace
 }  // namespace sheen::golden

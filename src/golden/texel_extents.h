@@ -41,7 +41,7 @@ class TexelExtents {
   struct Span {
     double first, last;
   };
-  /// A block of many texels is taken for the smallest of at most a few dozen blocks of the pyramid that hold it.
+  /// A block of many texels is taken for the smallest of at most some hundred blocks of the pyramid that hold it.
   Extent<glm::vec4> over(const Span& columns, const Span& rows, const scene::Sampler& sampler) const;
 
  private:

@@ -45,7 +45,7 @@ TEST(TexelExtents, HoldEveryTexelOfABlockHoweverItWraps) {
         }
         // Of a block of few texels, no other; of more, in the second and third channel, those a cell farther off.
         const glm::dvec2 size(columns.last - columns.first + 1.0, rows.last - rows.first + 1.0);
-        const bool is_small = size.x * size.y <= 48.0 && size.x < width && size.y < height;
+        const bool is_small = size.x * size.y <= 144.0 && size.x < width && size.y < height;
         exact += is_small && found.least == all.least && found.most == all.most ? 1 : 0;
         narrow += is_small ? 1 : 0;
         if (found.most.y - found.least.y < static_cast<float>(width - 1)) {

@@ -115,7 +115,6 @@ class LevelReader {
 
   const scene::Texels& level() const { return level_; }
   const scene::Sampler& sampler() const { return sampler_; }
-  scene::Filter filter() const { return filter_; }
 
  private:
   glm::dvec4 texel(double i, double j) const;

@@ -28,7 +28,7 @@ TextureBox::TextureBox(const Texture& texture, glm::dvec2 uv, glm::dvec2 reach)
     : texture_(texture), uv_(uv), off_(reach + coordinate_roundings * epsilon * (glm::abs(uv) + glm::dvec2(1.0) / texture.size())) {}
 
 TextureBox::Level TextureBox::look(LevelReader read, double number) const {
-  Level out;
+  Level out{};
   const std::optional<Patch> patch = read.patch(uv_, off_);
   out.is_flat = patch.has_value();
   if (patch) {

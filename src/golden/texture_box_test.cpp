@@ -95,7 +95,7 @@ TEST(TextureBox, HoldsBothLevelsThatAreMixedOverAWideBox) {
   test::add_texture(
       s, test::picture(512, 512, [](int x, int y) { return glm::ivec4(glm::ivec3(x / 2 == 100 && y / 2 == 100 ? 255 : 0), 255); }));
   const Texture texture = TextureStore(s).get(0, scene::ColorSpace::Linear);
-  const Spread spread = TextureBox(texture, {0.7, 0.7}, {0.2, 0.2})(3.5);
+  const Spread spread = TextureBox(texture, {0.5, 0.5}, {0.2, 0.2})(3.5);
   const double mixed = 0.5 * (1.0 / 16.0 + 1.0 / 64.0);  // level 3 has the mean of 64 texels, 4 of them bright, level 4 that of 256
   EXPECT_GE(spread.value.x + spread.radius.x, mixed);
   EXPECT_LE(spread.value.x + spread.radius.x, mixed + 1e-5);

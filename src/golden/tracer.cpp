@@ -376,6 +376,10 @@ void Tracer::trace(const Ray& ray, bool with_masked, Seen& seen, const Hit* also
   std::erase_if(seen.masked, [&](const Hit& hit) { return seen.nearest && hit.t > seen.nearest->t; });
 }
 
+double Tracer::depth_tolerance(double depth) const {
+  return impl_->depth_tolerance(depth);
+}
+
 std::optional<Hit> Tracer::trace_alone(std::uint32_t triangle, const Ray& ray) const {
   const std::optional<Hit> hit = impl_->visible(triangle, ray);
   const bool is_plain = hit && hit->smallest_weight() > on_edge && !impl_->is_clipped(*hit) && !impl_->is_at_clip_plane(*hit) &&

@@ -27,6 +27,9 @@ class Tracer {
   /// @param also         met by the ray as it is said to be, whatever its triangle's plane says: of a triangle that is too narrow for one
   void trace(const Ray& ray, bool with_masked, Seen& seen, const Hit* also = nullptr) const;
 
+  /// How close to a depth another must be for a depth buffer or the clip range not to tell which is nearer.
+  double depth_tolerance(double depth) const;
+
   /// What trace() finds where no other triangle is near the ray. None where the triangle's own edge, a clip plane or its alpha matters.
   std::optional<Hit> trace_alone(std::uint32_t triangle, const Ray& ray) const;
 
