@@ -25,63 +25,57 @@ constexpr double accepted = 3e-7;  // relative error of the loss, absolute error
 using Rule1D = Chebyshev<nodes>;
 using Nodes = Rule1D::Nodes;
 
-struct Pair {
-  double log_loss, bias;
-};
-
-Pair pair_of(const GgxAlbedo& albedo) {
+GgxNode node_of(const GgxAlbedo& albedo) {
   return {std::log(albedo.loss), albedo.bias};
 }
 
-GgxAlbedo albedo_of(const Pair& pair) {
-  return {std::exp(pair.log_loss), pair.bias};
+GgxAlbedo albedo_of(const GgxNode& node) {
+  return {std::exp(node.log_loss), node.bias};
 }
 
-bool close(const Pair& ours, const Pair& exact) {
+bool close(const GgxNode& ours, const GgxNode& exact) {
   return std::abs(std::expm1(ours.log_loss - exact.log_loss)) <= accepted && std::abs(ours.bias - exact.bias) <= accepted;
 }
 
 // Values at the nodes of one axis.
-struct Line {
-  Nodes log_loss, bias;
+using Line = std::array<GgxNode, nodes>;
 
-  Pair at(const Nodes& shares) const {
-    Pair sum{0, 0};
-    for (int i = 0; i < nodes; ++i) {
-      sum.log_loss += shares[i] * log_loss[i];
-      sum.bias += shares[i] * bias[i];
-    }
-    return sum;
+GgxNode between(const Line& line, const Nodes& shares) {
+  GgxNode sum{0, 0};
+  for (int i = 0; i < nodes; ++i) {
+    sum.log_loss += shares[i] * line[i].log_loss;
+    sum.bias += shares[i] * line[i].bias;
   }
-  void set(int i, const Pair& value) { log_loss[i] = value.log_loss, bias[i] = value.bias; }
-};
+  return sum;
+}
 
 struct Patch {
   std::once_flag made;
   bool usable = false;
-  std::array<Line, nodes> rows;
+  std::array<Line, nodes> columns;  // [x][y]
 
   // Values at the nodes of x for one y.
-  Line row(double t_y) const {
-    const Nodes sy = Rule1D::instance().shares(t_y);
+  Line row(const Nodes& shares_y) const {
+    Line values;
+    for (int i = 0; i < nodes; ++i) {
+      values[i] = between(columns[i], shares_y);
+    }
+    return values;
+  }
+
+  // Values at the nodes of y for one x.
+  Line column(const Nodes& shares_x) const {
     Line values{};
-    for (int j = 0; j < nodes; ++j) {
-      for (int i = 0; i < nodes; ++i) {
-        values.log_loss[i] += sy[j] * rows[j].log_loss[i];
-        values.bias[i] += sy[j] * rows[j].bias[i];
+    for (int i = 0; i < nodes; ++i) {
+      for (int j = 0; j < nodes; ++j) {
+        values[j].log_loss += shares_x[i] * columns[i][j].log_loss;
+        values[j].bias += shares_x[i] * columns[i][j].bias;
       }
     }
     return values;
   }
 
-  Pair at(double t_x, double t_y) const {
-    const Nodes sx = Rule1D::instance().shares(t_x);
-    Line column;
-    for (int j = 0; j < nodes; ++j) {
-      column.set(j, rows[j].at(sx));
-    }
-    return column.at(Rule1D::instance().shares(t_y));
-  }
+  GgxNode at(double t_x, double t_y) const { return between(column(Rule1D::instance().shares(t_x)), Rule1D::instance().shares(t_y)); }
 };
 
 struct AveragePatch {
@@ -104,14 +98,14 @@ struct GgxInterpolant::Impl {
   std::array<std::array<Patch, patches_x>, patches_y> patches;
   std::array<AveragePatch, patches_y> averages;
 
-  static Pair direct(double x, double y) { return pair_of(ggx_albedo(cosine_of(std::exp(x)), std::exp(y))); }
+  static GgxNode direct(double x, double y) { return node_of(ggx_albedo(cosine_of(std::exp(x)), std::exp(y))); }
 
   static void make(Patch& patch, int ix, int iy) {
     const auto exact = [&](double t_x, double t_y) { return direct(coordinate(patch_x, ix, t_x), coordinate(patch_y, iy, t_y)); };
     const Nodes& node = Rule1D::instance().node;
     for (int j = 0; j < nodes; ++j) {
       for (int i = 0; i < nodes; ++i) {
-        patch.rows[j].set(i, exact(node[i], node[j]));
+        patch.columns[i][j] = exact(node[i], node[j]);
       }
     }
     patch.usable = true;
@@ -127,13 +121,13 @@ struct GgxInterpolant::Impl {
   }
 
   static void make(AveragePatch& patch, int iy) {
-    const auto exact = [&](double t) { return pair_of(ggx_average_albedo(std::exp(coordinate(patch_y, iy, t)))); };
+    const auto exact = [&](double t) { return node_of(ggx_average_albedo(std::exp(coordinate(patch_y, iy, t)))); };
     for (int i = 0; i < nodes; ++i) {
-      patch.line.set(i, exact(Rule1D::instance().node[i]));
+      patch.line[i] = exact(Rule1D::instance().node[i]);
     }
     patch.usable = true;
     for (const double t : {outside, -outside, 0.0}) {
-      patch.usable = patch.usable && close(patch.line.at(Rule1D::instance().shares(t)), exact(t));
+      patch.usable = patch.usable && close(between(patch.line, Rule1D::instance().shares(t)), exact(t));
     }
   }
 };
@@ -143,18 +137,55 @@ GgxInterpolant::~GgxInterpolant() = default;
 GgxInterpolant::GgxInterpolant(GgxInterpolant&&) noexcept = default;
 GgxInterpolant& GgxInterpolant::operator=(GgxInterpolant&&) noexcept = default;
 
+GgxCosine GgxInterpolant::cosine(double n_dot_v) {
+  GgxCosine of;
+  of.n_dot_v_ = std::min(std::max(n_dot_v, min_n_dot_v), 1.0);
+  if (!std::isnan(of.n_dot_v_)) {
+    const double u = std::log(half_elevation_tangent(of.n_dot_v_)) / -patch_x;  // in patches
+    of.column_ = std::min(static_cast<int>(u), patches_x - 1);
+    of.shares_ = Rule1D::instance().shares(1 - 2 * (u - of.column_));
+  }
+  return of;
+}
+
+GgxAlpha GgxInterpolant::alpha(double alpha) {
+  GgxAlpha of;
+  of.alpha_ = alpha;
+  if (alpha > mirror_alpha) {
+    const double v = std::log(std::min(alpha, 1.0)) / -patch_y;  // in patches
+    of.row_ = std::min(static_cast<int>(v), patches_y - 1);
+    of.shares_ = Rule1D::instance().shares(1 - 2 * (v - of.row_));
+  }
+  return of;
+}
+
+GgxAlbedo GgxInterpolant::operator()(GgxCosine& n_dot_v, const GgxAlpha& alpha) const {
+  if (!(alpha.alpha_ > mirror_alpha)) {
+    return ggx_albedo(n_dot_v.n_dot_v_, 0);
+  }
+  if (std::isnan(n_dot_v.n_dot_v_)) {
+    return {n_dot_v.n_dot_v_, n_dot_v.n_dot_v_};
+  }
+  const std::size_t kept = std::min(n_dot_v.count_, n_dot_v.kept_.size());
+  std::size_t at = 0;
+  while (at < kept && n_dot_v.kept_[at].row != alpha.row_) {
+    ++at;
+  }
+  GgxCosine::Column& column = n_dot_v.kept_[at < kept ? at : n_dot_v.count_ % n_dot_v.kept_.size()];
+  if (at == kept) {
+    const Patch& patch = impl_->patch(n_dot_v.column_, alpha.row_);
+    column = {alpha.row_, patch.usable, patch.column(n_dot_v.shares_)};
+    ++n_dot_v.count_;
+  }
+  if (!column.usable) {
+    return ggx_albedo(n_dot_v.n_dot_v_, alpha.alpha_);
+  }
+  return albedo_of(between(column.values, alpha.shares_));
+}
+
 GgxAlbedo GgxInterpolant::operator()(double n_dot_v, double alpha) const {
-  const double mu = std::min(std::max(n_dot_v, min_n_dot_v), 1.0);
-  if (!(alpha > mirror_alpha)) {
-    return ggx_albedo(mu, 0);
-  }
-  if (std::isnan(mu)) {
-    return {mu, mu};
-  }
-  const double u = std::log(half_elevation_tangent(mu)) / -patch_x, v = std::log(std::min(alpha, 1.0)) / -patch_y;  // in patches
-  const int ix = std::min(static_cast<int>(u), patches_x - 1), iy = std::min(static_cast<int>(v), patches_y - 1);
-  const Patch& patch = impl_->patch(ix, iy);
-  return patch.usable ? albedo_of(patch.at(1 - 2 * (u - ix), 1 - 2 * (v - iy))) : ggx_albedo(mu, alpha);
+  GgxCosine one = cosine(n_dot_v);
+  return (*this)(one, GgxInterpolant::alpha(alpha));
 }
 
 GgxCurve GgxInterpolant::at_alpha(double alpha) const {
@@ -163,16 +194,15 @@ GgxCurve GgxInterpolant::at_alpha(double alpha) const {
     curve.usable_ = false;  // it is simple enough
     return curve;
   }
-  const double v = std::log(std::min(alpha, 1.0)) / -patch_y;
-  const int iy = std::min(static_cast<int>(v), patches_y - 1);
+  const GgxAlpha place = GgxInterpolant::alpha(alpha);
   for (int ix = 0; ix < patches_x; ++ix) {
-    const Patch& patch = impl_->patch(ix, iy);
+    const Patch& patch = impl_->patch(ix, place.row_);
     curve.usable_ = curve.usable_ && patch.usable;
-    const Line values = patch.row(1 - 2 * (v - iy));
+    const Line values = patch.row(place.shares_);
     for (int power = 0; power < nodes; ++power) {
       for (int i = 0; i < nodes; ++i) {
-        curve.log_loss_[ix][power] += Rule1D::instance().powers[power][i] * values.log_loss[i];
-        curve.bias_[ix][power] += Rule1D::instance().powers[power][i] * values.bias[i];
+        curve.log_loss_[ix][power] += Rule1D::instance().powers[power][i] * values[i].log_loss;
+        curve.bias_[ix][power] += Rule1D::instance().powers[power][i] * values[i].bias;
       }
     }
   }
@@ -187,11 +217,10 @@ GgxAlbedo GgxInterpolant::average(double alpha) const {
   if (!(alpha > mirror_alpha)) {
     return ggx_average_albedo(0);
   }
-  const double v = std::log(std::min(alpha, 1.0)) / -patch_y;
-  const int iy = std::min(static_cast<int>(v), patches_y - 1);
-  AveragePatch& patch = impl_->averages[iy];
-  std::call_once(patch.made, [&] { Impl::make(patch, iy); });
-  return patch.usable ? albedo_of(patch.line.at(Rule1D::instance().shares(1 - 2 * (v - iy)))) : ggx_average_albedo(alpha);
+  const GgxAlpha place = GgxInterpolant::alpha(alpha);
+  AveragePatch& patch = impl_->averages[place.row_];
+  std::call_once(patch.made, [&] { Impl::make(patch, place.row_); });
+  return patch.usable ? albedo_of(between(patch.line, place.shares_)) : ggx_average_albedo(alpha);
 }
 
 }  // namespace sheen::albedo

@@ -1,11 +1,43 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 
 #include "albedo/ggx_albedo.h"
 #include "albedo/ggx_curve.h"
 
 namespace sheen::albedo {
+
+/// What GgxInterpolant runs polynomials through.
+struct GgxNode {
+  double log_loss, bias;
+};
+
+/// An alpha as GgxInterpolant takes it, to be asked for with many cosines.
+class GgxAlpha {
+  friend class GgxInterpolant;
+
+  double alpha_;
+  int row_ = 0;                                 // of patches
+  std::array<double, GgxCurve::nodes> shares_;  // of a patch's nodes
+};
+
+/// A cosine likewise, to be asked for with many alphas: what it makes of a patch is found once.
+class GgxCosine {
+  friend class GgxInterpolant;
+  struct Column {
+    int row;
+    bool usable;
+    std::array<GgxNode, GgxCurve::nodes> values;
+  };
+
+  double n_dot_v_;
+  int column_ = 0;                              // of patches
+  std::array<double, GgxCurve::nodes> shares_;  // of a patch's nodes
+  std::array<Column, 3> kept_;                  // the last ones
+  std::size_t count_ = 0;
+};
 
 /// ggx_albedo and ggx_average_albedo for any cosine and alpha, many times faster than quadrature and within 1e-6 of it: relative for the
 /// loss, absolute for the bias. Chebyshev patches over logarithms of both, each made when first touched and held to quadrature at points
@@ -20,6 +52,10 @@ class GgxInterpolant {
   /// ggx_albedo; cosines below min_n_dot_v count as min_n_dot_v, of light and of view alike, so that what is built of it stays reciprocal.
   /// Of what is no number it makes none.
   GgxAlbedo operator()(double n_dot_v, double alpha) const;
+  /// The same, of places to be asked for again.
+  GgxAlbedo operator()(GgxCosine& n_dot_v, const GgxAlpha& alpha) const;
+  static GgxCosine cosine(double n_dot_v);
+  static GgxAlpha alpha(double alpha);
   /// The same at one alpha, for any number type. This must outlive it.
   GgxCurve at_alpha(double alpha) const;
   /// ggx_average_albedo.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "albedo/ggx_places.h"
 #include "albedo/ggx_table.h"
 #include "albedo/lookup_error.h"
 #include "golden/albedo_reader.h"
@@ -65,7 +66,8 @@ struct AlbedoReader<number::Bounded<Precision>> {
       return about(*albedo.around, cosine, alpha);
     }
     const double grazing = 1 - cosine.range().lower;
-    return lobe([&](double c, double a) { return (*albedo.interpolant)(c, a); }, cosine, alpha, std::pow(grazing, 5) + more_bias);
+    albedo::GgxPlaces places(*albedo.interpolant);
+    return lobe([&](double c, double a) { return places(c, a); }, cosine, alpha, std::pow(grazing, 5) + more_bias);
   }
   static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const B& alpha) {
     return lobe([&](double, double a) { return albedo.interpolant->average(a); }, B(1), alpha, 1.0 / 21 + more_bias);
@@ -118,10 +120,11 @@ struct AlbedoReader<number::Bounded<Precision>> {
   /// @param across    f at any roughness
   /// @param together  what a small change of both arguments brings beyond that of either, times their shares, where f has a value; infinite
   ///                  where that is not known
+  /// @param steps_y   in a ratio of e of y, where f is looked at
   /// @param least_y   below which f does not change with y
   template <class Function, class Across, class Turn, class Error, class Together>
   static B read(const Function& f, const Across& across, const Turn& turn, bool may_turn, const Error& error, const Together& together,
-                const B& x, const B& y, double least_y = 1e-3) {
+                const B& x, const B& y, double steps_y = 7, double least_y = 1e-3) {
     if (!x.is_bounded() || !y.is_bounded()) {
       return B::unbounded(0.0);  // their centres need not be numbers
     }
@@ -188,13 +191,9 @@ struct AlbedoReader<number::Bounded<Precision>> {
       lowest = std::max(0.0, lowest - across_bend);
       remainder += across_bend;
       if (is_wide_roughness(y)) {
-        const double lower = std::max(y.range().lower, least_y);
-        const double upper = std::max(y.range().upper, lower);
-        // Steps of a seventh of a roughness, while they are not too many.
-        const int steps = std::min(2 + static_cast<int>(7 * std::log(upper / lower)), 40);
+        const Steps steps(std::max(y.range().lower, least_y), y.range().upper, steps_y);
         for (const double c : {x.range().lower, x.center(), x.range().upper}) {
-          include_between([&](double place) { return across(c, between(lower, upper, place)); }, steps,
-                          [&](double there) { include(c, there); });
+          include_between([&](double there) { return across(c, there); }, steps, [&](double there) { include(c, there); });
         }
       }
     }
@@ -226,15 +225,33 @@ struct AlbedoReader<number::Bounded<Precision>> {
                       B::Error::absolute(0, off), true);
   }
 
-  /// What a function of places from 0 to 1 reaches between them: what it has at the ends of some steps, and beyond that twice as far as a
-  /// parabola through three neighbours goes.
-  /// @param steps  at least 2
+  /// Places of the same ratio each.
+  struct Steps {
+    static constexpr std::size_t most = 40;
+    std::array<double, most + 1> place;
+    std::size_t count;  ///< of steps, at least 2
+
+    /// @param per_e  in a ratio of e, while they are not too many
+    Steps(double lower, double highest, double per_e) {
+      const double upper = std::max(highest, lower);
+      const double logarithm = std::isfinite(upper) ? std::log(upper / lower) : 0;
+      count = std::min(2 + static_cast<std::size_t>(per_e * logarithm), most);
+      const double ratio = std::exp(logarithm / static_cast<double>(count));
+      place[0] = lower;
+      for (std::size_t i = 1; i < count; ++i) {
+        place[i] = place[i - 1] * ratio;
+      }
+      place[count] = upper;
+    }
+  };
+
+  /// What f reaches between places: what it has there, and beyond that twice as far as a parabola through three neighbours goes.
   template <class Function, class Include>
-  static void include_between(const Function& f, int steps, const Include& include) {
-    double first = f(0.0);
-    double middle = f(1.0 / steps);
-    for (int i = 2; i <= steps; ++i) {
-      const double last = f(static_cast<double>(i) / steps);
+  static void include_between(const Function& f, const Steps& steps, const Include& include) {
+    double first = f(steps.place[0]);
+    double middle = f(steps.place[1]);
+    for (std::size_t i = 2; i <= steps.count; ++i) {
+      const double last = f(steps.place[i]);
       const double bend = 0.25 * std::abs(first + last - 2.0 * middle);
       include(std::max(first, std::max(middle, last)) + bend);
       include(std::max(0.0, std::min(first, std::min(middle, last)) - bend));
@@ -242,9 +259,6 @@ struct AlbedoReader<number::Bounded<Precision>> {
       middle = last;
     }
   }
-
-  /// Of the same ratio each. @param place  from 0 to 1
-  static double between(double lower, double upper, double place) { return lower * std::pow(upper / lower, place); }
 
   /// Between the ends of an alpha, relative to it.
   static double share_of(const B& alpha) {
@@ -284,6 +298,9 @@ struct AlbedoReader<number::Bounded<Precision>> {
     std::size_t found_ = 0, next_ = 0;
   };
 
+  // Loss and bias bend over a ratio of e of either argument.
+  static constexpr double steps_in_e = 4;
+
   // The shader's table holds the logarithms of loss and scale; its bias is what they leave of 1.
   static double loss_error(double loss) { return albedo::ggx_table_error * loss; }
   static double bias_error() { return albedo::ggx_table_error; }
@@ -300,10 +317,7 @@ struct AlbedoReader<number::Bounded<Precision>> {
       const double loss = std::max(there.loss, most_loss(alpha.range().upper));
       return {up_to(there.loss, loss, loss_error(loss)), up_to(there.bias, std::max(there.bias, most_bias), bias_error())};
     }
-    const double lower = std::max(cosine.range().lower, albedo::min_n_dot_v);
-    const double upper = std::max(cosine.range().upper, lower);
-    // Either bends over a logarithm of the cosine of 1.
-    const int steps = 2 + (std::isfinite(upper) ? static_cast<int>(4 * std::log(upper / lower)) : 0);
+    const Steps cosines(std::max(cosine.range().lower, albedo::min_n_dot_v), cosine.range().upper, steps_in_e);
     const bool is_wide_alpha = is_wide_roughness(alpha);
     const double changes = changes_with_alpha * share_of(alpha);
     Once<Albedo> once(albedo);
@@ -317,7 +331,7 @@ struct AlbedoReader<number::Bounded<Precision>> {
           return;
         }
         const double more = is_wide_alpha ? 0.0 : changes;
-        include_between([&](double place) { return at(between(lower, upper, place), end); }, steps,
+        include_between([&](double c) { return at(c, end); }, cosines,
                         [&](double there) {
                           include(there + more * size(there));
                           include(std::max(0.0, there - more * size(there)));
@@ -326,7 +340,7 @@ struct AlbedoReader<number::Bounded<Precision>> {
       const auto together = [&](double there) {
         return alpha.range().lower >= least_alpha_of_changes ? most_together * size(there) : not_known(there);
       };
-      return read(at, f, turn, true, error, together, cosine, alpha, albedo::mirror_alpha);
+      return read(at, f, turn, true, error, together, cosine, alpha, steps_in_e, albedo::mirror_alpha);
     };
     const auto loss = of(
         &brdf::LobeAlbedo<double>::loss, [](double there) { return there; }, loss_changes_together,

@@ -210,7 +210,7 @@ Vector BoundedSurfaceReader::At::interpolated(const TriangleInView::Vectors& vec
 // Where a normal has no direction the shader takes the triangle's own, the cross product of how the position changes to the next pixel
 // along x and along y: differences of two positions, each of them off by its rounding.
 Vector BoundedSurfaceReader::At::face_normal(const Vector& position) const {
-  const glm::dvec3 n = r_.view_from_world_ * r_.geometry_.face_normal(hit_.triangle);
+  const glm::dvec3 n = r_.rays_.view_from_world() * r_.geometry_.face_normal(hit_.triangle);
   const auto point = [&](double dx, double dy) {
     const Ray ray = r_.rays_.through(ray_.x + dx, ray_.y + dy);
     const std::optional<Hit> met = r_.geometry_.meet(hit_.triangle, ray);
@@ -334,11 +334,7 @@ void BoundedSurfaceReader::At::read(BoundedSurface& out) {
 
 BoundedSurfaceReader::BoundedSurfaceReader(const Geometry& geometry, const RayGenerator& rays, const SurfaceReader& reader,
                                            brdf::Model model)
-    : geometry_(geometry),
-      rays_(rays),
-      reader_(reader),
-      model_(model),
-      view_from_world_(glm::transpose(glm::dmat3(rays.camera().world_from_camera))) {
+    : geometry_(geometry), rays_(rays), reader_(reader), model_(model) {
   roundings_.reserve(geometry.triangle_count());
   for (std::uint32_t triangle = 0; triangle < geometry.triangle_count(); ++triangle) {
     roundings_.emplace_back(geometry, rays, triangle);

@@ -51,7 +51,6 @@ class BoundedSurfaceReader {
   const RayGenerator& rays_;
   const SurfaceReader& reader_;
   brdf::Model model_;
-  glm::dmat3 view_from_world_;
   std::vector<VertexRounding> roundings_;  // by triangle
 };
 

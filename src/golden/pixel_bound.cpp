@@ -8,11 +8,10 @@
 namespace sheen::golden {
 namespace {
 
-std::vector<PreparedLight> seen_from(const scene::Camera& camera, std::vector<PreparedLight> lights) {
-  const glm::dmat3 view_from_world = glm::transpose(glm::dmat3(camera.world_from_camera));
+std::vector<PreparedLight> seen_from(const RayGenerator& rays, std::vector<PreparedLight> lights) {
   for (PreparedLight& light : lights) {
-    light.position = view_from_world * (light.position - glm::dvec3(camera.world_from_camera[3]));
-    light.axis = view_from_world * light.axis;
+    light.position = rays.in_view(light.position);
+    light.axis = rays.view_from_world() * light.axis;
   }
   return lights;
 }
@@ -23,7 +22,7 @@ PixelBound::PixelBound(const Frame& frame)
     : frame_(frame),
       near_misses_(frame),
       reader_(frame.geometry, frame.rays, frame.reader, frame.model.model),
-      lights_(seen_from(frame.rays.camera(), frame.lights)) {
+      lights_(seen_from(frame.rays, frame.lights)) {
   for (std::size_t i = 0; frame.ggx && i < frame.scene.materials.size(); ++i) {
     const SurfaceReader::Material& m = frame.reader.material(static_cast<int>(i));
     std::optional<GgxAround>& around = base_albedos_.emplace_back();

@@ -3,11 +3,16 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace sheen::golden {
 
 RayGenerator::RayGenerator(const scene::Camera& camera, int width, int height)
-    : camera_(camera), width_(width), height_(height), origin_(camera.world_from_camera[3]) {
+    : camera_(camera),
+      width_(width),
+      height_(height),
+      view_from_world_(glm::transpose(glm::dmat3(camera.world_from_camera))),
+      origin_(camera.world_from_camera[3]) {
   const double half_height = camera.perspective ? std::tan(0.5 * camera.yfov) : camera.ymag;
   const double aspect = static_cast<double>(width) / height;
   right_ = glm::dvec3(camera.world_from_camera[0]) * (half_height * aspect);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -32,6 +33,11 @@ class RayGenerator {
   /// Depth of a point along the viewing axis.
   double depth(const glm::dvec3& point) const { return glm::dot(point - origin_, forward_); }
 
+  /// Of directions; in view space the camera looks along -Z, +Y up.
+  const glm::dmat3& view_from_world() const { return view_from_world_; }
+  /// A point in view space, of which the camera is the origin.
+  glm::dvec3 in_view(const glm::dvec3& point) const { return view_from_world_ * (point - origin_); }
+
   const scene::Camera& camera() const { return camera_; }
   int width() const { return width_; }
   int height() const { return height_; }
@@ -39,6 +45,7 @@ class RayGenerator {
  private:
   scene::Camera camera_;
   int width_, height_;
+  glm::dmat3 view_from_world_;
   glm::dvec3 origin_, right_, up_, forward_;  // world space; right and up reach the picture's edge
 };
 

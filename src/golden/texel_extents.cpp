@@ -7,7 +7,7 @@
 namespace sheen::golden {
 namespace {
 
-constexpr int finest_cell = 4;  // texels a side
+constexpr int finest_cell = 4;   // texels a side
 constexpr int most_cells = 144;  // to look at for one block
 
 }  // namespace

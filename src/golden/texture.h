@@ -86,7 +86,7 @@ double nearest_level(const Texture& texture, double lambda);
 struct Patch {
   glm::dvec4 value, along_u, along_v, twist;
 
-  /// The most that any corner, and so anything within, departs from the value.
+  /// The most that what it gives departs from the value, by channel: at a corner.
   glm::dvec4 reach() const;
 };
 

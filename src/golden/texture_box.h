@@ -16,10 +16,11 @@ struct Spread {
   glm::dvec4 radius{0.0};
 };
 
-/// What a texture may give at coordinates that lie within `reach` of uv along either axis: at the corners of that box and wherever in it
-/// the filter has an edge (nearest) or a bend (linear), between which it is bilinear and so has no extremes; of a box over many texels, all
-/// that these are; with a shader's roundings in highp of the filter's arithmetic. Each mipmap level that is mixed with another is read
-/// once, however often it is asked for.
+/// What a texture may give at coordinates that lie within `reach` of uv along either axis, with a shader's roundings in highp of the
+/// filter's arithmetic. Where the filter has neither an edge (nearest) nor a bend (linear) within that box it is bilinear, and its corners
+/// tell; elsewhere it is no less and no more than the texels it reads, one by one where they are few, else in blocks that hold them
+/// (TexelExtents). Of two mipmap levels that are mixed each does its worst on its own where one of them bends. A level is read once,
+/// however often it is asked for.
 class TextureBox {
  public:
   /// The texture must outlive this.
@@ -29,7 +30,7 @@ class TextureBox {
   Spread operator()(double lambda);
 
  private:
-  /// A box of more texels than this along an axis is not looked at bend by bend, but for the texels of blocks that hold it.
+  /// A box of more texels than this along an axis is not gone through texel by texel, but in blocks that hold it.
   static constexpr int widest_box = 6;
   /// One level by one filter.
   struct Level {

@@ -5,17 +5,12 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "golden/bound.h"
 #include "golden/vertex_rounding.h"
 
 namespace sheen::golden {
 namespace {
-
-glm::dmat3 view_from_world(const RayGenerator& rays) {
-  return glm::transpose(glm::dmat3(rays.camera().world_from_camera));
-}
 
 // A matrix of floats times the vectors at the vertices.
 template <class Attribute>
@@ -34,12 +29,11 @@ TriangleInView::Vectors transformed(const std::vector<Attribute>& directions, co
 }
 
 TriangleInView::Vectors position_of(const Geometry& geometry, const RayGenerator& rays, std::uint32_t triangle) {
-  const glm::dmat3 view = view_from_world(rays);
   TriangleInView::Vectors out;
   glm::dvec3 largest(0.0);
   const std::array<glm::dvec3, 3> magnitudes = position_magnitudes(geometry, rays, triangle);
   for (std::size_t i = 0; i < 3; ++i) {
-    out.at.at(i) = view * (geometry.positions()[geometry.vertices(triangle).at(i)] - glm::dvec3(rays.camera().world_from_camera[3]));
+    out.at.at(i) = rays.in_view(geometry.positions()[geometry.vertices(triangle).at(i)]);
     largest = glm::max(largest, magnitudes.at(i));
   }
   out.rounding = transform_roundings * epsilon * largest;
@@ -52,7 +46,7 @@ TriangleInView::TriangleInView(const Geometry& geometry, const RayGenerator& ray
     : triangle(triangle_in), edges(geometry, rays, triangle_in), position(position_of(geometry, rays, triangle_in)) {
   const Placed& placed = geometry.placed(triangle);
   const std::array<std::uint32_t, 3> vertices = geometry.local_vertices(triangle);
-  const glm::dmat3 view = view_from_world(rays);
+  const glm::dmat3 view = rays.view_from_world();
   if (!placed.primitive->normals.empty()) {
     // Scaled to lengths near 1, as a shader's matrix has it: the length goes, but what has none must not.
     const glm::dmat3 m = view * placed.normal_matrix;

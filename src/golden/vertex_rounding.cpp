@@ -15,17 +15,12 @@ glm::dmat3 absolute(const glm::dmat3& m) {
   return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
 }
 
-glm::dmat3 view_from_world(const RayGenerator& rays) {
-  return glm::transpose(glm::dmat3(rays.camera().world_from_camera));
-}
-
 }  // namespace
 
 std::array<glm::dvec3, 3> position_magnitudes(const Geometry& geometry, const RayGenerator& rays, std::uint32_t triangle) {
   const Placed& placed = geometry.placed(triangle);
-  const glm::dmat3 view = view_from_world(rays);
-  const glm::dmat3 magnitudes = absolute(view * placed.linear);
-  const glm::dvec3 offset = glm::abs(view * (placed.offset - glm::dvec3(rays.camera().world_from_camera[3])));
+  const glm::dmat3 magnitudes = absolute(rays.view_from_world() * placed.linear);
+  const glm::dvec3 offset = glm::abs(rays.in_view(placed.offset));
   const auto local = geometry.local_vertices(triangle);
   std::array<glm::dvec3, 3> out;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -37,13 +32,11 @@ std::array<glm::dvec3, 3> position_magnitudes(const Geometry& geometry, const Ra
 VertexRounding::VertexRounding(const Geometry& geometry, const RayGenerator& rays, std::uint32_t triangle) {
   const std::array<glm::dvec3, 3> magnitudes = position_magnitudes(geometry, rays, triangle);
   const scene::Camera& camera = rays.camera();
-  const glm::dmat3 view = view_from_world(rays);
   const double aspect = static_cast<double>(rays.width()) / rays.height();
   const double per_height = 1.0 / (camera.perspective ? std::tan(0.5 * camera.yfov) : camera.ymag);  // of clip coordinates by view space
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec3& m = magnitudes.at(i);
-    const glm::dvec3 p =
-        glm::abs(view * (geometry.positions()[geometry.vertices(triangle).at(i)] - glm::dvec3(camera.world_from_camera[3])));
+    const glm::dvec3 p = glm::abs(rays.in_view(geometry.positions()[geometry.vertices(triangle).at(i)]));
     const double w = camera.perspective ? transform_roundings * m.z : 0.0;  // a point of the picture lies within w of its axis
     const glm::dvec2 clip(per_height / aspect * (transform_roundings * m.x + 4.5 * p.x) + w,
                           per_height * (transform_roundings * m.y + 4.5 * p.y) + w);
