@@ -139,6 +139,7 @@ GgxInterpolant& GgxInterpolant::operator=(GgxInterpolant&&) noexcept = default;
 
 GgxCosine GgxInterpolant::cosine(double n_dot_v) {
   GgxCosine of;
+  of.count_ = 0;
   of.n_dot_v_ = std::min(std::max(n_dot_v, min_n_dot_v), 1.0);
   if (!std::isnan(of.n_dot_v_)) {
     const double u = std::log(half_elevation_tangent(of.n_dot_v_)) / -patch_x;  // in patches
@@ -214,13 +215,16 @@ GgxAlbedo GgxCurve::slowly(double n_dot_v) const {
 }
 
 GgxAlbedo GgxInterpolant::average(double alpha) const {
-  if (!(alpha > mirror_alpha)) {
+  return average(GgxInterpolant::alpha(alpha));
+}
+
+GgxAlbedo GgxInterpolant::average(const GgxAlpha& alpha) const {
+  if (!(alpha.alpha_ > mirror_alpha)) {
     return ggx_average_albedo(0);
   }
-  const GgxAlpha place = GgxInterpolant::alpha(alpha);
-  AveragePatch& patch = impl_->averages[place.row_];
-  std::call_once(patch.made, [&] { Impl::make(patch, place.row_); });
-  return patch.usable ? albedo_of(between(patch.line, place.shares_)) : ggx_average_albedo(alpha);
+  AveragePatch& patch = impl_->averages[alpha.row_];
+  std::call_once(patch.made, [&] { Impl::make(patch, alpha.row_); });
+  return patch.usable ? albedo_of(between(patch.line, alpha.shares_)) : ggx_average_albedo(alpha.alpha_);
 }
 
 }  // namespace sheen::albedo

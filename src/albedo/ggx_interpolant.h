@@ -14,16 +14,16 @@ struct GgxNode {
   double log_loss, bias;
 };
 
-/// An alpha as GgxInterpolant takes it, to be asked for with many cosines.
+/// An alpha as GgxInterpolant takes it (GgxInterpolant::alpha), to be asked for with many cosines.
 class GgxAlpha {
   friend class GgxInterpolant;
 
   double alpha_;
-  int row_ = 0;                                 // of patches
+  int row_;                                     // of patches
   std::array<double, GgxCurve::nodes> shares_;  // of a patch's nodes
 };
 
-/// A cosine likewise, to be asked for with many alphas: what it makes of a patch is found once.
+/// A cosine likewise (GgxInterpolant::cosine), to be asked for with many alphas: what it makes of a patch is found once.
 class GgxCosine {
   friend class GgxInterpolant;
   struct Column {
@@ -33,10 +33,10 @@ class GgxCosine {
   };
 
   double n_dot_v_;
-  int column_ = 0;                              // of patches
+  int column_;                                  // of patches
   std::array<double, GgxCurve::nodes> shares_;  // of a patch's nodes
   std::array<Column, 3> kept_;                  // the last ones
-  std::size_t count_ = 0;
+  std::size_t count_;
 };
 
 /// ggx_albedo and ggx_average_albedo for any cosine and alpha, many times faster than quadrature and within 1e-6 of it: relative for the
@@ -60,6 +60,7 @@ class GgxInterpolant {
   GgxCurve at_alpha(double alpha) const;
   /// ggx_average_albedo.
   GgxAlbedo average(double alpha) const;
+  GgxAlbedo average(const GgxAlpha& alpha) const;
 
  private:
   struct Impl;

@@ -47,6 +47,15 @@ struct BaseAlbedo {
 /// (bounded_albedo_test.cpp).
 inline constexpr double changes_with_alpha = 4;
 
+/// A range of alpha as GgxInterpolant takes it. Plain numbers, as SheenAlbedo.
+struct GgxAlphas {
+  static constexpr std::size_t most = 12;
+
+  albedo::GgxAlpha lower, center, upper;
+  albedo::GgxAlpha place[most];  ///< between the ends of a wide one
+  std::size_t count;             ///< of those
+};
+
 /// A range of cosines that is wider than this share of its centre is wide: over it an albedo may bend one way and the other.
 inline constexpr double wide_cosines = 1.0 / 16;
 
@@ -77,14 +86,20 @@ struct AlbedoReader {
     return read();
   }
 
-  /// Albedo of the GGX lobe at a cosine.
-  static brdf::LobeAlbedo<Real> ggx(const BaseAlbedo& albedo, const Real& cosine, const Real& alpha) {
-    return each([&](double c, double a) { return (*albedo.interpolant)(c, a); }, cosine, alpha);
-  }
-  /// Its average over the hemisphere.
-  static brdf::LobeAlbedo<Real> ggx_average(const BaseAlbedo& albedo, const Real& alpha) {
-    return each([&](double, double a) { return albedo.interpolant->average(a); }, alpha, alpha);
-  }
+  /// Albedo of the GGX lobe at one alpha.
+  class Ggx {
+   public:
+    Ggx(const BaseAlbedo& albedo, const Real& alpha) : interpolant_(*albedo.interpolant), alpha_(alpha) {}
+    brdf::LobeAlbedo<Real> operator()(const Real& cosine) const { return each(interpolant_, cosine, alpha_); }
+    /// Over the hemisphere.
+    brdf::LobeAlbedo<Real> average() const {
+      return each([this](double, double a) { return interpolant_.average(a); }, alpha_, alpha_);
+    }
+
+   private:
+    const albedo::GgxInterpolant& interpolant_;
+    Real alpha_;
+  };
 
  private:
   template <class Read>

@@ -15,13 +15,18 @@ auto OneAlbedo<Precision>::sheen(const SheenAlbedo& albedo, const B& cosine, con
 }
 
 template <class Precision>
-auto OneAlbedo<Precision>::ggx(const BaseAlbedo& albedo, const B& cosine, const B& alpha) -> brdf::LobeAlbedo<B> {
-  return AlbedoReader<B>::ggx(albedo, cosine, alpha);
+void OneAlbedo<Precision>::find(const B& alpha, GgxAlphas& alphas) {
+  GgxRange<B>::find(alpha, alphas);
 }
 
 template <class Precision>
-auto OneAlbedo<Precision>::ggx_average(const BaseAlbedo& albedo, const B& alpha) -> brdf::LobeAlbedo<B> {
-  return AlbedoReader<B>::ggx_average(albedo, alpha);
+auto OneAlbedo<Precision>::ggx(const BaseAlbedo& albedo, const GgxAlphas& alphas, const B& cosine, const B& alpha) -> brdf::LobeAlbedo<B> {
+  return GgxRange<B>::at(albedo, alphas, cosine, alpha);
+}
+
+template <class Precision>
+auto OneAlbedo<Precision>::ggx_average(const BaseAlbedo& albedo, const GgxAlphas& alphas, const B& alpha) -> brdf::LobeAlbedo<B> {
+  return GgxRange<B>::average(albedo, alphas, alpha);
 }
 
 template struct OneAlbedo<number::Highp>;
@@ -40,7 +45,7 @@ GgxAround ggx_around(const albedo::GgxInterpolant& ggx, const Bound& alpha) {
   constexpr double negligible = 1e-8;
   return {at, albedo::turns_of([&at](double c) { return at(c).loss; }, negligible),
           albedo::turns_of([&at](double c) { return at(c).bias; }, negligible), alpha,
-          AlbedoReader<Bound>::ggx_average({&ggx, nullptr}, alpha)};
+          AlbedoReader<Bound>::Ggx({&ggx, nullptr}, alpha).average()};
 }
 
 void bound_all_scalar(const BoundJob& job, const Lighting& lighting, brdf::Rgb<Bound>* results) {

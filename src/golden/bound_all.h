@@ -15,8 +15,10 @@ template <class Precision>
 struct OneAlbedo {
   using B = number::Bounded<Precision>;
   static B sheen(const SheenAlbedo& albedo, const B& cosine, const B& sheen_roughness);
-  static brdf::LobeAlbedo<B> ggx(const BaseAlbedo& albedo, const B& cosine, const B& alpha);
-  static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const B& alpha);
+  /// What the other two take of an alpha.
+  static void find(const B& alpha, GgxAlphas& alphas);
+  static brdf::LobeAlbedo<B> ggx(const BaseAlbedo& albedo, const GgxAlphas& alphas, const B& cosine, const B& alpha);
+  static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const GgxAlphas& alphas, const B& alpha);
 };
 extern template struct OneAlbedo<number::Highp>;
 extern template struct OneAlbedo<number::Mediump>;

@@ -98,13 +98,35 @@ TEST(BoundedAlbedo, HoldsThePhysicalModels) {
   for (int i = 0; i < 300 && !HasFailure(); ++i) {
     const Bound cosine = some_range(albedo::min_n_dot_v, random);
     const Bound alpha = some_range(i % 4 == 0 ? 1e-10 : 1e-3, random);
-    const brdf::LobeAlbedo<Bound> bound = Reader::ggx({&ggx, nullptr}, cosine, alpha);
+    const brdf::LobeAlbedo<Bound> bound = Reader::Ggx({&ggx, nullptr}, alpha)(cosine);
     for (int c = 0; c <= places; ++c) {
       for (int r = 0; r <= places; r += 4) {
         const brdf::LobeAlbedo<double> exact = ggx(at(cosine, 1.0 * c / places), at(alpha, 1.0 * r / places));
         expect_held(bound.loss, exact.loss, 0, cosine, alpha);
         expect_held(bound.bias, exact.bias, 0, cosine, alpha);
       }
+    }
+  }
+}
+
+TEST(BoundedAlbedo, HoldsThePhysicalModelsAverages) {
+  std::mt19937 random(9);
+  const albedo::GgxInterpolant ggx;
+  for (int i = 0; i < 300 && !HasFailure(); ++i) {
+    const Bound alpha = some_range(i % 4 == 0 ? 1e-10 : 1e-3, random);
+    const brdf::LobeAlbedo<Bound> bound = Reader::Ggx({&ggx, nullptr}, alpha).average();
+    double least = 1;
+    double most = 0;
+    for (int r = 0; r <= places; ++r) {
+      const brdf::LobeAlbedo<double> exact = ggx.average(at(alpha, 1.0 * r / places));
+      expect_held(bound.loss, exact.loss, albedo::ggx_table_error * exact.loss, Bound(1), alpha);
+      expect_held(bound.bias, exact.bias, albedo::ggx_table_error, Bound(1), alpha);
+      least = std::min(least, exact.loss);
+      most = std::max(most, exact.loss);
+    }
+    if (alpha.range().upper < 2 * alpha.range().lower) {
+      EXPECT_LE(bound.loss.range().upper - bound.loss.range().lower, 1.5 * (most - least) + 3 * albedo::ggx_table_error * most)
+          << "and hardly more, alpha " << alpha.range().lower << " to " << alpha.range().upper;
     }
   }
 }
@@ -121,7 +143,7 @@ TEST(BoundedAlbedo, HoldsThePhysicalModelsAboutOneAlpha) {
       int narrow = 0;
       for (int i = 0; i < 100 && !HasFailure(); ++i) {
         const Bound cosine = some_range(albedo::min_n_dot_v, random);
-        const brdf::LobeAlbedo<Bound> bound = Reader::ggx({&ggx, &around}, cosine, alpha);
+        const brdf::LobeAlbedo<Bound> bound = Reader::Ggx({&ggx, &around}, alpha)(cosine);
         for (int c = 0; c <= places; ++c) {
           for (const double end : {0.0, 1.0}) {
             const brdf::LobeAlbedo<double> exact = ggx(at(cosine, 1.0 * c / places), std::min(at(alpha, end), 1.0));
@@ -148,8 +170,8 @@ TEST(BoundedAlbedo, HoldsThePhysicalModelsInMediump) {
     const Medium alpha = Medium::within(roughness * roughness, 0x1p-10 * roughness * roughness);
     for (const double cosine : {0.02, 0.2, 0.5, 1.0}) {
       const Medium of(cosine);
-      const brdf::LobeAlbedo<Medium> bound = AlbedoReader<Medium>::ggx({&ggx, &around}, of, alpha);
-      const brdf::LobeAlbedo<Medium> average = AlbedoReader<Medium>::ggx_average({&ggx, &around}, alpha);
+      const brdf::LobeAlbedo<Medium> bound = AlbedoReader<Medium>::Ggx({&ggx, &around}, alpha)(of);
+      const brdf::LobeAlbedo<Medium> average = AlbedoReader<Medium>::Ggx({&ggx, &around}, alpha).average();
       for (const double end : {alpha.range().lower, alpha.range().upper}) {
         const auto holds = [](const Medium& x, double exact, double off) {
           EXPECT_LE(x.range().lower, std::max(exact - off, 0.0));
@@ -176,7 +198,7 @@ TEST(BoundedAlbedo, HoldsCosinesWhoseCentreIsAtAnEnd) {
     const Bound cosine = min(Bound::within(upper, 0.06 * upper), Bound(upper));
     ASSERT_EQ(cosine.center(), cosine.range().upper);
     const Bound alpha(0.375);
-    const brdf::LobeAlbedo<Bound> of_ggx = Reader::ggx({&ggx, nullptr}, cosine, alpha);
+    const brdf::LobeAlbedo<Bound> of_ggx = Reader::Ggx({&ggx, nullptr}, alpha)(cosine);
     const Bound of_sheen = Reader::sheen(albedo, cosine, alpha);
     for (int c = 0; c <= places; ++c) {
       const double n_dot_v = at(cosine, 1.0 * c / places);
@@ -230,13 +252,35 @@ TEST(BoundedAlbedo, OfThePhysicalModelChangeNoMoreWithAlphaThanIsCounted) {
   EXPECT_LT(bias, changes_with_alpha);
 }
 
+TEST(BoundedAlbedo, OfThePhysicalModelBendNoMoreBetweenTwoCosinesThanIsCounted) {
+  const albedo::GgxInterpolant ggx;
+  double loss = 0;
+  double bias = 0;
+  constexpr double share = GgxRange<Bound>::narrow_cosines;
+  for (int a = 0; a < 160; ++a) {
+    const double alpha = std::pow(10.0, -8 * a / 160.0);
+    for (int c = 0; c <= 400; ++c) {
+      const double cosine = std::pow(10.0, -4 * c / 400.0) / (1 + share);
+      const auto lower = ggx(cosine, alpha);
+      const auto middle = ggx(cosine * (1 + 0.5 * share), alpha);
+      const auto upper = ggx(cosine * (1 + share), alpha);
+      loss = std::max(loss, std::abs(lower.loss + upper.loss - 2 * middle.loss) / (2 * middle.loss));
+      bias = std::max(bias, std::abs(lower.bias + upper.bias - 2 * middle.bias) / 2);
+    }
+  }
+  EXPECT_LT(loss, GgxRange<Bound>::loss_bends * share * share);
+  EXPECT_GT(loss, 0.2 * GgxRange<Bound>::loss_bends * share * share) << "and the figure is not beside the matter";
+  EXPECT_LT(bias, GgxRange<Bound>::bias_bends * share * share);
+  EXPECT_GT(bias, 0.2 * GgxRange<Bound>::bias_bends * share * share);
+}
+
 TEST(BoundedAlbedo, OfThePhysicalModelChangeNoMoreWithBothArgumentsThanIsCounted) {
   const albedo::GgxInterpolant ggx;
   double loss = 0;
   double bias = 0;
   constexpr double share = 0.01;
   for (int a = 0; a < 120; ++a) {
-    const double alpha = std::pow(Reader::least_alpha_of_changes, a / 119.0) * (1 - share);
+    const double alpha = std::pow(GgxRange<Bound>::least_alpha_of_changes, a / 119.0) * (1 - share);
     for (int c = 0; c <= 120; ++c) {
       const double cosine = std::pow(10.0, -4 * c / 120.0) * (1 - share);
       const auto here = ggx(cosine, alpha);
@@ -251,10 +295,10 @@ TEST(BoundedAlbedo, OfThePhysicalModelChangeNoMoreWithBothArgumentsThanIsCounted
       }
     }
   }
-  EXPECT_LT(loss, Reader::loss_changes_together * share * share);
-  EXPECT_GT(loss, 0.2 * Reader::loss_changes_together * share * share) << "and the figure is not beside the matter";
-  EXPECT_LT(bias, Reader::bias_changes_together * share * share);
-  EXPECT_GT(bias, 0.2 * Reader::bias_changes_together * share * share);
+  EXPECT_LT(loss, GgxRange<Bound>::loss_changes_together * share * share);
+  EXPECT_GT(loss, 0.2 * GgxRange<Bound>::loss_changes_together * share * share) << "and the figure is not beside the matter";
+  EXPECT_LT(bias, GgxRange<Bound>::bias_changes_together * share * share);
+  EXPECT_GT(bias, 0.2 * GgxRange<Bound>::bias_changes_together * share * share);
 }
 
 }  // namespace

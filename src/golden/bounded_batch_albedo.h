@@ -48,60 +48,86 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     return e;
   }
 
-  static brdf::LobeAlbedo<B> ggx(const BaseAlbedo& albedo, const B& cosine, const B& alpha) {
-    const auto one = [&albedo](const One& c, const One& a) { return OneAlbedo<Precision>::ggx(albedo, c, a); };
-    const number::Batch mirror(albedo::mirror_alpha);
-    const number::BatchMask straddles = (alpha.lower() <= mirror) & ~(alpha.upper() <= mirror);
-    if (albedo.around == nullptr || xsimd::any(cosine.is_unbounded() | alpha.is_unbounded() | straddles)) {
-      return each(one, cosine, alpha);
+  /// At one alpha, see GgxRange.
+  class Ggx {
+   public:
+    Ggx(const BaseAlbedo& albedo, const B& alpha) : albedo_(albedo), alpha_(alpha) {
+      for (std::size_t i = 0; i < B::lanes; ++i) {
+        const One a = alpha.template lane<One>(i);
+        if (!is_about(a) || straddles(a)) {
+          OneAlbedo<Precision>::find(a, alphas_[i]);
+        }
+      }
     }
-    const GgxAround& around = *albedo.around;
-    const auto at = around.at(cosine.center());
-    const auto low = around.at(cosine.lower());
-    const auto high = around.at(cosine.upper());
-    const number::Batch share =
-        (alpha.upper() - alpha.lower()) / xsimd::max(alpha.lower(), mirror) +
-        xsimd::abs(alpha.center() - number::Batch(around.at.alpha())) / number::Batch(std::max(around.at.alpha(), albedo::mirror_alpha));
-    const number::Batch changes = number::Batch(albedo::ggx_table_error) + number::Batch(changes_with_alpha) * share;
-    Reading loss(cosine, at.loss, low.loss, high.loss);
-    Reading bias(cosine, at.bias, low.bias, high.bias);
-    if (xsimd::any(loss.is_lopsided())) {
-      const auto middle = around.at(loss.middle());
-      loss.bend = loss.include_middle(middle.loss);
-      bias.bend = bias.include_middle(middle.bias);
+
+    brdf::LobeAlbedo<B> operator()(const B& cosine) const {
+      const number::Batch mirror(albedo::mirror_alpha);
+      const number::BatchMask straddling = (alpha_.lower() <= mirror) & ~(alpha_.upper() <= mirror);
+      if (albedo_.around == nullptr || xsimd::any(cosine.is_unbounded() | alpha_.is_unbounded() | straddling)) {
+        return each(
+            [&](std::size_t i, const One& a) { return OneAlbedo<Precision>::ggx(albedo_, alphas_[i], cosine.template lane<One>(i), a); });
+      }
+      const GgxAround& around = *albedo_.around;
+      const auto at = around.at(cosine.center());
+      const auto low = around.at(cosine.lower());
+      const auto high = around.at(cosine.upper());
+      const number::Batch share =
+          (alpha_.upper() - alpha_.lower()) / xsimd::max(alpha_.lower(), mirror) +
+          xsimd::abs(alpha_.center() - number::Batch(around.at.alpha())) / number::Batch(std::max(around.at.alpha(), albedo::mirror_alpha));
+      const number::Batch changes = number::Batch(albedo::ggx_table_error) + number::Batch(changes_with_alpha) * share;
+      Reading loss(cosine, at.loss, low.loss, high.loss);
+      Reading bias(cosine, at.bias, low.bias, high.bias);
+      if (xsimd::any(loss.is_lopsided())) {
+        const auto middle = around.at(loss.middle());
+        loss.bend = loss.include_middle(middle.loss);
+        bias.bend = bias.include_middle(middle.bias);
+      }
+      loss.bend_within(number::BatchMask(true));
+      loss.turn(around.loss);
+      bias.bend_within(number::BatchMask(true));
+      bias.turn(around.bias);
+      return {loss.made(changes * loss.highest * loss.growth()), bias.made(changes * bias.growth())};
     }
-    loss.bend_within(number::BatchMask(true));
-    loss.turn(around.loss);
-    bias.bend_within(number::BatchMask(true));
-    bias.turn(around.bias);
-    return {loss.made(changes * loss.highest * loss.growth()), bias.made(changes * bias.growth())};
-  }
-  static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const B& alpha) {
-    return each(
-        [&albedo](const One&, const One& a) {
-          if constexpr (std::is_same_v<Precision, number::Highp>) {
-            const bool is_the_one = albedo.around != nullptr && a.is_bounded() && albedo.around->alpha.range().lower <= a.range().lower &&
-                                    a.range().upper <= albedo.around->alpha.range().upper;
-            return is_the_one ? albedo.around->average : OneAlbedo<Precision>::ggx_average(albedo, a);
-          } else {
-            return OneAlbedo<Precision>::ggx_average(albedo, a);
+
+    brdf::LobeAlbedo<B> average() const {
+      return each([&](std::size_t i, const One& a) {
+        if constexpr (std::is_same_v<Precision, number::Highp>) {
+          if (is_about(a)) {
+            return albedo_.around->average;
           }
-        },
-        alpha, alpha);
-  }
+        }
+        return OneAlbedo<Precision>::ggx_average(albedo_, alphas_[i], a);
+      });
+    }
+
+   private:
+    /// Whether it is held by what is known around one.
+    bool is_about(const One& alpha) const {
+      return std::is_same_v<Precision, number::Highp> && albedo_.around != nullptr && alpha.is_bounded() &&
+             albedo_.around->alpha.range().lower <= alpha.range().lower && alpha.range().upper <= albedo_.around->alpha.range().upper;
+    }
+    static bool straddles(const One& alpha) {
+      return alpha.range().lower <= albedo::mirror_alpha && !(alpha.range().upper <= albedo::mirror_alpha);
+    }
+
+    /// @param read  of a lane and its alpha
+    template <class Read>
+    brdf::LobeAlbedo<B> each(const Read& read) const {
+      brdf::LobeAlbedo<B> albedo;
+      for (std::size_t i = 0; i < B::lanes; ++i) {
+        const brdf::LobeAlbedo<One> one = read(i, alpha_.template lane<One>(i));
+        albedo.loss.set_lane(i, one.loss);
+        albedo.bias.set_lane(i, one.bias);
+      }
+      return albedo;
+    }
+
+    BaseAlbedo albedo_;
+    B alpha_;
+    GgxAlphas alphas_[B::lanes];  // of lanes that are not about the one alpha
+  };
 
  private:
-  template <class Read>
-  static brdf::LobeAlbedo<B> each(const Read& read, const B& cosine, const B& alpha) {
-    brdf::LobeAlbedo<B> albedo;
-    for (std::size_t i = 0; i < B::lanes; ++i) {
-      const brdf::LobeAlbedo<One> one = read(cosine.template lane<One>(i), alpha.template lane<One>(i));
-      albedo.loss.set_lane(i, one.loss);
-      albedo.bias.set_lane(i, one.bias);
-    }
-    return albedo;
-  }
-
   /// AlbedoReader<One>::read, in lanes that are bounded: what an albedo is over the cosines.
   struct Reading {
     B cosine;
@@ -236,20 +262,19 @@ struct AlbedoReaderOfHalves {
     e.take(smaller, e_v);
     return e;
   }
-  static brdf::LobeAlbedo<Eight> ggx(const BaseAlbedo& albedo, const Eight& cosine, const Eight& alpha) {
-    return of_halves([&](std::size_t half) { return Bounds::ggx(albedo, cosine.bounds(half), alpha.bounds(half)); });
-  }
-  static brdf::LobeAlbedo<Eight> ggx_average(const BaseAlbedo& albedo, const Eight& alpha) {
-    return of_halves([&](std::size_t half) { return Bounds::ggx_average(albedo, alpha.bounds(half)); });
-  }
+  class Ggx {
+   public:
+    Ggx(const BaseAlbedo& albedo, const Eight& alpha) : first_(albedo, alpha.bounds(0)), last_(albedo, alpha.bounds(1)) {}
+    brdf::LobeAlbedo<Eight> operator()(const Eight& cosine) const { return whole(first_(cosine.bounds(0)), last_(cosine.bounds(1))); }
+    brdf::LobeAlbedo<Eight> average() const { return whole(first_.average(), last_.average()); }
 
- private:
-  template <class Half>
-  static brdf::LobeAlbedo<Eight> of_halves(const Half& half) {
-    const auto first = half(0);
-    const auto last = half(1);
-    return {Eight(first.loss, last.loss), Eight(first.bias, last.bias)};
-  }
+   private:
+    template <class Half>
+    static brdf::LobeAlbedo<Eight> whole(const Half& first, const Half& last) {
+      return {Eight(first.loss, last.loss), Eight(first.bias, last.bias)};
+    }
+    typename Bounds::Ggx first_, last_;
+  };
 };
 
 template <>

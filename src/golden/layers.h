@@ -116,9 +116,13 @@ struct HalfAngles {
 
 /// The base of the physical model at one point, with what does not depend on the light found once.
 template <class Real>
-brdf::PhysicalBase<Real> physical_base(const brdf::Base<Real>& base, const Real& n_dot_v, const BaseAlbedo& albedo) {
-  return {base, AlbedoReader<Real>::ggx(albedo, n_dot_v, base.alpha), AlbedoReader<Real>::ggx_average(albedo, base.alpha)};
-}
+struct PhysicalLayer {
+  typename AlbedoReader<Real>::Ggx albedo;
+  brdf::PhysicalBase<Real> base;
+
+  PhysicalLayer(const brdf::Base<Real>& of, const Real& n_dot_v, const BaseAlbedo& base_albedo)
+      : albedo(base_albedo, of.alpha), base(of, albedo(n_dot_v), albedo.average()) {}
+};
 
 /// x times one of TermFactors: x itself where that is 1, of which a shader knows nothing.
 template <class Real>
@@ -249,7 +253,7 @@ class BelowCoat {
       sheen_.emplace(surface, lobe_, lighting);
     }
     if (lighting.base_albedo.interpolant != nullptr) {
-      physical_.emplace(physical_base(base_.material(), n_dot_v_, lighting.base_albedo));
+      physical_.emplace(base_.material(), n_dot_v_, lighting.base_albedo);
     }
   }
 
@@ -301,8 +305,9 @@ class BelowCoat {
 
   Color base_brdf(const Real& n_dot_l, const HalfAngles<Lobe>& half) const {
     if (physical_) {
-      const auto albedo = AlbedoReader<Lobe>::ggx(lighting_.base_albedo, As<Lobe>::number(n_dot_l), base_.material().alpha);
-      return As<Real>::color(physical_->brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h()));
+      const auto albedo = physical_->albedo(As<Lobe>::number(n_dot_l));
+      return As<Real>::color(
+          physical_->base.brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h()));
     }
     return As<Real>::color(base_.brdf(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h, half.v_dot_h()));
   }
@@ -317,7 +322,7 @@ class BelowCoat {
   Lobe n_dot_v_;
   brdf::BaseLayer<Lobe> base_;
   std::optional<SheenLayer<Real, Lobe>> sheen_;
-  std::optional<brdf::PhysicalBase<Lobe>> physical_;
+  std::optional<PhysicalLayer<Lobe>> physical_;
 };
 
 }  // namespace sheen::golden

@@ -64,8 +64,11 @@ struct AlbedoReader<number::test::Perturbed<Precision>> {
   static P for_light(const P&, const P&, const P&, const Read& read) {
     return read();
   }
-  static brdf::LobeAlbedo<P> ggx(const BaseAlbedo&, const P&, const P&) { return {}; }
-  static brdf::LobeAlbedo<P> ggx_average(const BaseAlbedo&, const P&) { return {}; }
+  struct Ggx {
+    Ggx(const BaseAlbedo&, const P&) {}
+    brdf::LobeAlbedo<P> operator()(const P&) const { return {}; }
+    brdf::LobeAlbedo<P> average() const { return {}; }
+  };
 };
 
 namespace {

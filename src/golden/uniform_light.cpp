@@ -182,9 +182,10 @@ Shaded<double> shade_uniform(const Surface<double>& surface, Layers layers, cons
   } else {
     base = base_integrals(surface.base.alpha, lobe.n_dot_v, one);
   }
-  const Color reflected = lighting.base_albedo.interpolant != nullptr
-                              ? physical_base(surface.base, lobe.n_dot_v, lighting.base_albedo).light(base.specular, base.specular_w)
-                              : base_light(surface.base, base);
+  const Color reflected =
+      lighting.base_albedo.interpolant != nullptr
+          ? PhysicalLayer<double>(surface.base, lobe.n_dot_v, lighting.base_albedo).base.light(base.specular, base.specular_w)
+          : base_light(surface.base, base);
   const Color under = (reflected * factors.base) * light * (1 - k);
   const Color cloth = sheen_light * light * (1 - k);
   const double coat_light = layers.clearcoat ? k * factors.coat_lobe * base_integrals(surface.coat_alpha, coat.n_dot_v, one).specular : 0.0;
