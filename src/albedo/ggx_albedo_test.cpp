@@ -145,6 +145,19 @@ TEST(GgxInterpolant, HoldsAtItsCornersAndTakesAMirrorForOne) {
   EXPECT_EQ(interpolant(0, 0.5).loss, interpolant(min_n_dot_v, 0.5).loss) << "cosines are floored";
 }
 
+TEST(GgxInterpolant, GivesTheSameAtPlacesAskedForAgain) {
+  const GgxInterpolant interpolant;
+  for (const auto& [mu, alpha] : points(300, 19)) {
+    GgxCosine cosine = GgxInterpolant::cosine(mu);
+    // Of more rows of patches than a place keeps, and back.
+    for (const double a : {alpha, 1.1 * alpha, 0.3 * alpha, 0.1 * alpha, 0.03 * alpha, 0.01 * alpha, alpha}) {
+      const GgxAlbedo ours = interpolant(cosine, GgxInterpolant::alpha(a));
+      EXPECT_EQ(ours.loss, interpolant(mu, a).loss) << "n_dot_v " << mu << " alpha " << a;
+      EXPECT_EQ(ours.bias, interpolant(mu, a).bias) << "n_dot_v " << mu << " alpha " << a;
+    }
+  }
+}
+
 TEST(GgxInterpolant, GivesCurvesOfOneAlphaToRounding) {
   const GgxInterpolant interpolant;
   for (const double alpha : {0.0, 1e-8, 3e-5, 1e-3, 0.04, 0.5, 1.0, 1.5}) {

@@ -139,49 +139,39 @@ GgxInterpolant& GgxInterpolant::operator=(GgxInterpolant&&) noexcept = default;
 
 GgxCosine GgxInterpolant::cosine(double n_dot_v) {
   GgxCosine of;
-  of.count_ = 0;
-  of.n_dot_v_ = std::min(std::max(n_dot_v, min_n_dot_v), 1.0);
-  if (!std::isnan(of.n_dot_v_)) {
-    const double u = std::log(half_elevation_tangent(of.n_dot_v_)) / -patch_x;  // in patches
-    of.column_ = std::min(static_cast<int>(u), patches_x - 1);
-    of.shares_ = Rule1D::instance().shares(1 - 2 * (u - of.column_));
+  of.value = std::min(std::max(n_dot_v, min_n_dot_v), 1.0);
+  of.made = 0;
+  if (!std::isnan(of.value)) {
+    const double u = std::log(half_elevation_tangent(of.value)) / -patch_x;  // in patches
+    of.column = std::min(static_cast<int>(u), patches_x - 1);
+    of.shares = Rule1D::instance().shares(1 - 2 * (u - of.column));
   }
   return of;
 }
 
 GgxAlpha GgxInterpolant::alpha(double alpha) {
   GgxAlpha of;
-  of.alpha_ = alpha;
+  of.value = alpha;
   if (alpha > mirror_alpha) {
     const double v = std::log(std::min(alpha, 1.0)) / -patch_y;  // in patches
-    of.row_ = std::min(static_cast<int>(v), patches_y - 1);
-    of.shares_ = Rule1D::instance().shares(1 - 2 * (v - of.row_));
+    of.row = std::min(static_cast<int>(v), patches_y - 1);
+    of.shares = Rule1D::instance().shares(1 - 2 * (v - of.row));
   }
   return of;
 }
 
 GgxAlbedo GgxInterpolant::operator()(GgxCosine& n_dot_v, const GgxAlpha& alpha) const {
-  if (!(alpha.alpha_ > mirror_alpha)) {
-    return ggx_albedo(n_dot_v.n_dot_v_, 0);
+  if (!(alpha.value > mirror_alpha)) {
+    return ggx_albedo(n_dot_v.value, 0);
   }
-  if (std::isnan(n_dot_v.n_dot_v_)) {
-    return {n_dot_v.n_dot_v_, n_dot_v.n_dot_v_};
+  if (std::isnan(n_dot_v.value)) {
+    return {n_dot_v.value, n_dot_v.value};
   }
-  const std::size_t kept = std::min(n_dot_v.count_, n_dot_v.kept_.size());
-  std::size_t at = 0;
-  while (at < kept && n_dot_v.kept_[at].row != alpha.row_) {
-    ++at;
-  }
-  GgxCosine::Column& column = n_dot_v.kept_[at < kept ? at : n_dot_v.count_ % n_dot_v.kept_.size()];
-  if (at == kept) {
-    const Patch& patch = impl_->patch(n_dot_v.column_, alpha.row_);
-    column = {alpha.row_, patch.usable, patch.column(n_dot_v.shares_)};
-    ++n_dot_v.count_;
-  }
-  if (!column.usable) {
-    return ggx_albedo(n_dot_v.n_dot_v_, alpha.alpha_);
-  }
-  return albedo_of(between(column.values, alpha.shares_));
+  const GgxCosine::Column& column = n_dot_v.in(alpha.row, [&]() -> GgxCosine::Column {
+    const Patch& patch = impl_->patch(n_dot_v.column, alpha.row);
+    return {alpha.row, patch.usable, patch.column(n_dot_v.shares)};
+  });
+  return column.usable ? albedo_of(between(column.values, alpha.shares)) : ggx_albedo(n_dot_v.value, alpha.value);
 }
 
 GgxAlbedo GgxInterpolant::operator()(double n_dot_v, double alpha) const {
@@ -197,9 +187,9 @@ GgxCurve GgxInterpolant::at_alpha(double alpha) const {
   }
   const GgxAlpha place = GgxInterpolant::alpha(alpha);
   for (int ix = 0; ix < patches_x; ++ix) {
-    const Patch& patch = impl_->patch(ix, place.row_);
+    const Patch& patch = impl_->patch(ix, place.row);
     curve.usable_ = curve.usable_ && patch.usable;
-    const Line values = patch.row(place.shares_);
+    const Line values = patch.row(place.shares);
     for (int power = 0; power < nodes; ++power) {
       for (int i = 0; i < nodes; ++i) {
         curve.log_loss_[ix][power] += Rule1D::instance().powers[power][i] * values[i].log_loss;
@@ -219,12 +209,12 @@ GgxAlbedo GgxInterpolant::average(double alpha) const {
 }
 
 GgxAlbedo GgxInterpolant::average(const GgxAlpha& alpha) const {
-  if (!(alpha.alpha_ > mirror_alpha)) {
+  if (!(alpha.value > mirror_alpha)) {
     return ggx_average_albedo(0);
   }
-  AveragePatch& patch = impl_->averages[alpha.row_];
-  std::call_once(patch.made, [&] { Impl::make(patch, alpha.row_); });
-  return patch.usable ? albedo_of(between(patch.line, alpha.shares_)) : ggx_average_albedo(alpha.alpha_);
+  AveragePatch& patch = impl_->averages[alpha.row];
+  std::call_once(patch.made, [&] { Impl::make(patch, alpha.row); });
+  return patch.usable ? albedo_of(between(patch.line, alpha.shares)) : ggx_average_albedo(alpha.value);
 }
 
 }  // namespace sheen::albedo

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <memory>
 
 #include "albedo/ggx_albedo.h"
 #include "albedo/ggx_curve.h"
+#include "albedo/patch_places.h"
 
 namespace sheen::albedo {
 
@@ -14,30 +13,8 @@ struct GgxNode {
   double log_loss, bias;
 };
 
-/// An alpha as GgxInterpolant takes it (GgxInterpolant::alpha), to be asked for with many cosines.
-class GgxAlpha {
-  friend class GgxInterpolant;
-
-  double alpha_;
-  int row_;                                     // of patches
-  std::array<double, GgxCurve::nodes> shares_;  // of a patch's nodes
-};
-
-/// A cosine likewise (GgxInterpolant::cosine), to be asked for with many alphas: what it makes of a patch is found once.
-class GgxCosine {
-  friend class GgxInterpolant;
-  struct Column {
-    int row;
-    bool usable;
-    std::array<GgxNode, GgxCurve::nodes> values;
-  };
-
-  double n_dot_v_;
-  int column_;                                  // of patches
-  std::array<double, GgxCurve::nodes> shares_;  // of a patch's nodes
-  std::array<Column, 3> kept_;                  // the last ones
-  std::size_t count_;
-};
+using GgxCosine = PlaceInColumn<GgxCurve::nodes, GgxNode>;
+using GgxAlpha = PlaceInRow<GgxCurve::nodes>;
 
 /// ggx_albedo and ggx_average_albedo for any cosine and alpha, many times faster than quadrature and within 1e-6 of it: relative for the
 /// loss, absolute for the bias. Chebyshev patches over logarithms of both, each made when first touched and held to quadrature at points

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <type_traits>
 
 #include "albedo/chebyshev.h"
 #include "albedo/coordinates.h"
@@ -26,35 +27,40 @@ const Rule1D& chebyshev() {
   return Rule1D::instance();
 }
 
+double between(const Nodes& values, const Nodes& shares) {
+  double sum = 0;
+  for (int i = 0; i < nodes; ++i) {
+    sum += shares[i] * values[i];
+  }
+  return sum;
+}
+
 struct Patch {
   std::once_flag made;
   bool usable = false;
-  std::array<Nodes, nodes> h;  // [y][x]
+  std::array<Nodes, nodes> h;  // [x][y]
 
-  double at(double t_x, double t_y) const {
-    const Nodes sx = chebyshev().shares(t_x), sy = chebyshev().shares(t_y);
-    double value = 0;
-    for (int j = 0; j < nodes; ++j) {
-      double row = 0;
-      for (int i = 0; i < nodes; ++i) {
-        row += sx[i] * h[j][i];
-      }
-      value += sy[j] * row;
-    }
-    return value;
-  }
-
-  // The values at the nodes of x for one y.
-  Nodes row(double t_y) const {
-    const Nodes sy = chebyshev().shares(t_y);
+  // The values at the nodes of y for one x.
+  Nodes column(const Nodes& shares_x) const {
     Nodes values{};
-    for (int j = 0; j < nodes; ++j) {
-      for (int i = 0; i < nodes; ++i) {
-        values[i] += sy[j] * h[j][i];
+    for (int i = 0; i < nodes; ++i) {
+      for (int j = 0; j < nodes; ++j) {
+        values[j] += shares_x[i] * h[i][j];
       }
     }
     return values;
   }
+
+  // The values at the nodes of x for one y.
+  Nodes row(const Nodes& shares_y) const {
+    Nodes values;
+    for (int i = 0; i < nodes; ++i) {
+      values[i] = between(h[i], shares_y);
+    }
+    return values;
+  }
+
+  double at(double t_x, double t_y) const { return between(column(chebyshev().shares(t_x)), chebyshev().shares(t_y)); }
 };
 
 }  // namespace
@@ -81,7 +87,7 @@ struct Interpolant::Impl {
     const auto y_of = [iy](double t) { return -patch_y * (iy + (1 - t) / 2); };
     for (int j = 0; j < nodes; ++j) {
       for (int i = 0; i < nodes; ++i) {
-        patch.h[j][i] = direct(x_of(chebyshev().node[i]), y_of(chebyshev().node[j]));
+        patch.h[i][j] = direct(x_of(chebyshev().node[i]), y_of(chebyshev().node[j]));
       }
     }
     // The proof: the largest error of a Chebyshev interpolant lies between its outermost nodes and the border, or in the middle.
@@ -102,75 +108,52 @@ Interpolant::~Interpolant() = default;
 Interpolant::Interpolant(Interpolant&&) noexcept = default;
 Interpolant& Interpolant::operator=(Interpolant&&) noexcept = default;
 
-double Interpolant::operator()(double n_dot_v, double sheen_roughness) const {
+SheenCosine Interpolant::cosine(double n_dot_v) {
+  SheenCosine of;
   const double t = half_elevation_tangent(std::min(std::max(n_dot_v, min_n_dot_v), 1.0));
-  const double r = std::min(sheen_roughness, 1.0);
-  if (!(r > 0)) {
-    return 0;
+  of.t.value = t;
+  of.t.made = 0;
+  of.log_peak = std::log1p(t * t);
+  if (!std::isnan(t)) {
+    const double u = std::log(t) / -patch_x;  // in patches
+    of.t.column = Curve::patch_at(u);
+    of.t.shares = chebyshev().shares(1 - 2 * (u - Curve::start_of(of.t.column)) / Curve::length_of(of.t.column));
   }
-  const double drop = log_peak_drop(t, r);
-  if (!(drop < negligible_drop)) {
-    return 0;
-  }
-  const double u = std::log(t) / -patch_x, v = std::log(r) / -patch_y;  // in patches
-  const int ix = Curve::patch_at(u), iy = std::min(static_cast<int>(v), patches_y - 1);
-  const Patch& patch = impl_->patch(ix, iy);
-  if (!patch.usable) {
-    return directional_albedo(impl_->visibility, cosine_of(t), r);
-  }
-  return std::exp(patch.at(1 - 2 * (u - Curve::start_of(ix)) / Curve::length_of(ix), 1 - 2 * (v - iy)) - drop);
+  return of;
 }
 
-std::array<Interpolant::Triple, 3> Interpolant::grid(const Triple& n_dot_v, const Triple& sheen_roughness) const {
-  std::array<Triple, 3> e{};
-  const double least_r = *std::min_element(sheen_roughness.begin(), sheen_roughness.end());
-  const double largest_r = std::min(*std::max_element(sheen_roughness.begin(), sheen_roughness.end()), 1.0);
-  Triple t{}, log_peak{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    t[i] = half_elevation_tangent(std::min(std::max(n_dot_v[i], min_n_dot_v), 1.0));
-    log_peak[i] = log_peak_drop(t[i], 1.0);
+SheenRoughness Interpolant::roughness(double sheen_roughness) {
+  SheenRoughness of;
+  const double r = std::min(sheen_roughness, 1.0);
+  of.r.value = r;
+  of.p = 0.5 / (r * r);
+  if (r > 0) {
+    const double v = std::log(r) / -patch_y;  // in patches
+    of.r.row = v < patches_y ? static_cast<int>(v) : patches_y - 1;
+    of.r.shares = chebyshev().shares(1 - 2 * (v - of.r.row));
   }
-  if (!(largest_r > 0) || !(*std::min_element(log_peak.begin(), log_peak.end()) < negligible_drop * largest_r * largest_r)) {
-    return e;
+  return of;
+}
+
+double Interpolant::operator()(SheenCosine& n_dot_v, const SheenRoughness& sheen_roughness) const {
+  const double drop = sheen_roughness.p * n_dot_v.log_peak;
+  if (!(sheen_roughness.r.value > 0) || !(drop < negligible_drop)) {
+    return 0;
   }
-  Triple place_x{}, place_y{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    place_x[i] = std::log(t[i]) / -patch_x;
-    place_y[i] = least_r > 0 ? std::log(std::min(sheen_roughness[i], 1.0)) / -patch_y : 0;
+  auto& t = n_dot_v.t;
+  const auto& column = t.in(sheen_roughness.r.row, [&]() -> std::decay_t<decltype(t)>::Column {
+    const Patch& patch = impl_->patch(t.column, sheen_roughness.r.row);
+    return {sheen_roughness.r.row, patch.usable, patch.column(t.shares)};
+  });
+  if (!column.usable) {
+    return directional_albedo(impl_->visibility, cosine_of(t.value), sheen_roughness.r.value);
   }
-  const auto same = [](int a, int b, int c) { return a == b && b == c; };
-  const auto row_at = [](double v) { return v < patches_y ? static_cast<int>(v) : patches_y - 1; };
-  const int ix = Curve::patch_at(place_x[0]), iy = row_at(place_y[0]);
-  const Patch* patch = nullptr;
-  if (least_r > 0 && same(ix, Curve::patch_at(place_x[1]), Curve::patch_at(place_x[2])) &&
-      same(iy, row_at(place_y[1]), row_at(place_y[2]))) {
-    patch = &impl_->patch(ix, iy);
-  }
-  if (patch == nullptr || !patch->usable) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        e[j][i] = (*this)(n_dot_v[i], sheen_roughness[j]);
-      }
-    }
-    return e;
-  }
-  std::array<Nodes, 3> rows;
-  for (std::size_t j = 0; j < 3; ++j) {
-    rows[j] = patch->row(1 - 2 * (place_y[j] - iy));
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Nodes shares = chebyshev().shares(1 - 2 * (place_x[i] - Curve::start_of(ix)) / Curve::length_of(ix));
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double r = std::min(sheen_roughness[j], 1.0);
-      const double drop = log_peak[i] * (1 / (r * r));
-      double h = 0;
-      for (int k = 0; k < nodes; ++k) {
-        h += shares[k] * rows[j][k];
-      }
-      e[j][i] = drop < negligible_drop ? std::exp(h - drop) : 0;
-    }
-  }
-  return e;
+  return std::exp(between(column.values, sheen_roughness.r.shares) - drop);
+}
+
+double Interpolant::operator()(double n_dot_v, double sheen_roughness) const {
+  SheenCosine one = cosine(n_dot_v);
+  return (*this)(one, roughness(sheen_roughness));
 }
 
 Curve Interpolant::at_roughness(double sheen_roughness) const {
@@ -179,16 +162,15 @@ Curve Interpolant::at_roughness(double sheen_roughness) const {
   if (!(r > 0)) {
     return curve;
   }
-  const double v = std::log(r) / -patch_y;
-  const int iy = std::min(static_cast<int>(v), patches_y - 1);
+  const SheenRoughness place = roughness(r);
   for (int ix = 0; ix < patches_x; ++ix) {
     // The least T of the patch: where the drop is least.
     if (!(log_peak_drop(std::exp(-patch_x * (Curve::start_of(ix) + Curve::length_of(ix))), r) < negligible_drop)) {
       continue;
     }
-    const Patch& patch = impl_->patch(ix, iy);
+    const Patch& patch = impl_->patch(ix, place.r.row);
     curve.usable_ = curve.usable_ && patch.usable;
-    const Nodes values = patch.row(1 - 2 * (v - iy));
+    const Nodes values = patch.row(place.r.shares);
     for (int power = 0; power < nodes; ++power) {
       for (int i = 0; i < nodes; ++i) {
         curve.powers_[ix][power] += chebyshev().powers[power][i] * values[i];

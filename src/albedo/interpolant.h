@@ -1,12 +1,21 @@
 #pragma once
 
-#include <array>
 #include <memory>
 
 #include "albedo/curve.h"
+#include "albedo/patch_places.h"
 #include "albedo/sheen_model.h"
 
 namespace sheen::albedo {
+
+struct SheenCosine {
+  PlaceInColumn<Curve::nodes, double> t;  ///< the tangent of half the elevation, see coordinates.h
+  double log_peak;                        ///< ln(1 + T^2)
+};
+struct SheenRoughness {
+  PlaceInRow<Curve::nodes> r;
+  double p;  ///< 1 / (2 r^2)
+};
 
 /// E to 6e-7 (relative, or absolute where E < 1; half of it the quadrature's own) for any cosine and roughness, and to 2e-6 of itself for
 /// cosines above 0.5 and roughness above 0.17, hundreds of times faster than quadrature: Chebyshev patches over (n_dot_v, sheen_roughness),
@@ -22,10 +31,10 @@ class Interpolant {
   /// E; arguments as for directional_albedo. Cosines below min_n_dot_v count as min_n_dot_v.
   double operator()(double n_dot_v, double sheen_roughness) const;
 
-  using Triple = std::array<double, 3>;
-  /// The same at each of three cosines with each of three roughnesses, [roughness][cosine], to rounding; at the price of two or three, if
-  /// they lie close together.
-  std::array<Triple, 3> grid(const Triple& n_dot_v, const Triple& sheen_roughness) const;
+  /// The same, of places to be asked for again.
+  double operator()(SheenCosine& n_dot_v, const SheenRoughness& sheen_roughness) const;
+  static SheenCosine cosine(double n_dot_v);
+  static SheenRoughness roughness(double sheen_roughness);
 
   /// The same at one roughness, for any number type. This must outlive it.
   Curve at_roughness(double sheen_roughness) const;

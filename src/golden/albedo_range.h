@@ -8,6 +8,7 @@
 
 #include "albedo/sheen_model.h"
 #include "golden/albedo_reader.h"
+#include "number/bounded.h"
 
 namespace sheen::golden {
 
@@ -18,14 +19,6 @@ enum class End { Lower, Center, Upper };
 template <class B>
 bool is_wide_roughness(const B& roughness) {
   return roughness.range().upper > 1.05 * roughness.range().lower;
-}
-
-/// f(x, y) with y given as the end of a range.
-template <class Function, class B>
-auto at_ends(const Function& f, const B& y) {
-  return [&f, &y](double x, End end) {
-    return f(x, end == End::Center ? y.center() : end == End::Lower ? y.range().lower : y.range().upper);
-  };
 }
 
 /// Places of the same ratio each.
@@ -63,20 +56,121 @@ struct Steps {
   }
 };
 
-/// An albedo over ranges of a cosine x and a roughness y: value and slope at the centre, all that the ranges reach, and what a shader that
-/// reads a table in highp is off. Over a narrow range of cosines an albedo bends one way at the most, so that what is left of the slope is
-/// found at the ends, each with each of the other's and with its centre, and it exceeds what is found there by no more than that; of a wide
-/// one, see wide_cosines, no slope is made use of, and where it turns in between is looked for.
+/// The last few places that were asked for: a range's centre, ends and middle.
+template <class Place>
+class Kept {
+ public:
+  /// @param make  a Place of a value
+  explicit Kept(Place (*make)(double)) : make_(make) {}
+
+  Place& at(double value) {
+    for (std::size_t i = 0; i < made_ && i < most; ++i) {
+      if (values_[i] == value) {
+        return places_[i];
+      }
+    }
+    const std::size_t next = made_++ % most;
+    values_[next] = value;
+    return places_[next] = make_(value);
+  }
+
+ private:
+  static constexpr std::size_t most = 4;
+  Place (*make_)(double);
+  std::array<double, most> values_;
+  std::array<Place, most> places_;
+  std::size_t made_ = 0;
+};
+
+/// A range without a slope. @param off  of what a shader reads
+template <class B>
+B within(double value, const number::Range& range, double off) {
+  const double radius = std::max(range.upper - value, value - range.lower);
+  return B::rounded({value, 0, 0, radius, range}, B::Error::absolute(0, off), true);
+}
+
+/// The most steps that a range of cosines is gone through in.
+inline constexpr std::size_t most_cosine_steps = 40;
+
+/// An albedo at places of a cosine and of a roughness: about each it is beyond what it is there by no more than twice what parabolas
+/// through it and two neighbours are.
+template <std::size_t most_roughnesses>
+class AlbedoGrid {
+ public:
+  /// @param roughnesses  how many
+  explicit AlbedoGrid(std::size_t roughnesses) : columns_(roughnesses) {}
+
+  /// The next cosine's. @param at  the albedo at the roughnesses
+  template <class At>
+  void add(const At& at) {
+    for (std::size_t i = 0; i < columns_; ++i) {
+      place_[rows_][i] = at(i);
+    }
+    ++rows_;
+  }
+
+  /// @param value  one of those held
+  /// @param relative, absolute  what it may be beyond
+  number::Range held(double value, double relative, double absolute) const {
+    number::Range range{value, value};
+    for (std::size_t r = 0; r < rows_; ++r) {
+      for (std::size_t c = 0; c < columns_; ++c) {
+        const double bend = bend_at(r, rows_, [&](std::size_t i) { return place_[i][c]; }) +
+                            bend_at(c, columns_, [&](std::size_t i) { return place_[r][i]; });
+        range.lower = std::min(range.lower, place_[r][c] - bend);
+        range.upper = std::max(range.upper, place_[r][c] + bend);
+      }
+    }
+    return {std::max(0.0, range.lower * (1 - relative) - absolute), range.upper * (1 + relative) + absolute};
+  }
+
+ private:
+  /// About the place at i of so many.
+  template <class At>
+  static double bend_at(std::size_t i, std::size_t count, const At& at) {
+    double most = 0;
+    for (std::size_t last = std::max<std::size_t>(i, 2); last <= i + 2 && last < count; ++last) {
+      most = std::max(most, 0.25 * std::abs(at(last - 2) + at(last) - 2.0 * at(last - 1)));
+    }
+    return most;
+  }
+
+  std::array<std::array<double, most_roughnesses>, most_cosine_steps + 1> place_;
+  std::size_t rows_ = 0, columns_;
+};
+
+/// Of a narrower range its ends serve, if something is added for how an albedo bends between.
+inline constexpr double narrow_cosines = 0.01;
+
+/// f(cosine) of places that tell of a range. Returns the share by which two differ, if they are all, else 0.
+template <class B, class Function>
+double for_cosines(const B& cosine, double per_e, const Function& f) {
+  const double lower = std::max(cosine.range().lower, albedo::min_n_dot_v);
+  const double share = (cosine.range().upper - cosine.range().lower) / lower;
+  if (share <= narrow_cosines) {
+    f(cosine.range().lower);
+    f(cosine.range().upper);
+    return share;
+  }
+  const Steps<most_cosine_steps> steps(lower, cosine.range().upper, per_e);
+  for (std::size_t i = 0; i <= steps.count; ++i) {
+    f(steps.place[i]);
+  }
+  return 0;
+}
+
+/// An albedo over ranges of a cosine x and a narrow one of a roughness y: value and slope at the centre, all that the ranges reach, and
+/// what a shader that reads a table in highp is off. Over a narrow range of cosines an albedo bends one way at the most, so that what is
+/// left of the slope is found at the ends, each with each of the other's and with its centre, and it exceeds what is found there by no more
+/// than that; of a wide one, see wide_cosines, no slope is made use of, and where it turns in between is looked for.
 /// @param f         of a cosine, at an end of y
-/// @param across    includes, for a cosine and by what it is given, what f may be between the ends of a wide range of y
 /// @param turn      includes what f may be at an end of y where it turns in a wide range of cosines
 /// @param may_turn  whether it may do so in a narrow one
 /// @param error     of what a shader reads: of f, a cosine and a roughness
 /// @param together  what a small change of both arguments brings beyond that of either, for each share of the cosine, where f has a value;
 ///                  infinite where that is not known
-template <class B, class Function, class Across, class Turn, class Error, class Together>
-B read_albedo(const Function& f, const Across& across, const Turn& turn, bool may_turn, const Error& error, const Together& together,
-              const B& x, const B& y) {
+template <class B, class Function, class Turn, class Error, class Together>
+B read_albedo(const Function& f, const Turn& turn, bool may_turn, const Error& error, const Together& together, const B& x, const B& y) {
   if (!x.is_bounded() || !y.is_bounded()) {
     return B::unbounded(0.0);  // their centres need not be numbers
   }
@@ -101,7 +195,7 @@ B read_albedo(const Function& f, const Across& across, const Turn& turn, bool ma
   double low = value;
   double high = value;
   const double share_x = width / std::max(x.range().lower, albedo::min_n_dot_v);
-  const double both = wide || lopsided || is_wide_roughness(y) ? std::numeric_limits<double>::infinity() : together(value) * share_x;
+  const double both = wide || lopsided ? std::numeric_limits<double>::infinity() : together(value) * share_x;
   // Returns f at the centre of x.
   const auto include_ends = [&](End end) {
     const double there = f(x.center(), end);
@@ -141,11 +235,6 @@ B read_albedo(const Function& f, const Across& across, const Turn& turn, bool ma
     highest += across_bend;
     lowest = std::max(0.0, lowest - across_bend);
     remainder += across_bend;
-    if (is_wide_roughness(y)) {
-      for (const double c : {x.range().lower, x.center(), x.range().upper}) {
-        across(c, [&](double there) { include(c, there); });
-      }
-    }
   }
   if (wide) {
     turn(End::Center, reach);
@@ -159,7 +248,7 @@ B read_albedo(const Function& f, const Across& across, const Turn& turn, bool ma
     lowest = std::max(0.0, lowest - bend);
   }
   double off = 0;
-  if (wide || is_wide_roughness(y)) {
+  if (wide) {
     for (const double c : {x.range().lower, x.center(), x.range().upper}) {
       for (const double r : {y.range().lower, y.center(), y.range().upper}) {
         off = std::max(off, error(highest, c, r));

@@ -47,7 +47,16 @@ struct BaseAlbedo {
 /// (bounded_albedo_test.cpp).
 inline constexpr double changes_with_alpha = 4;
 
-/// A range of alpha as GgxInterpolant takes it. Plain numbers, as SheenAlbedo.
+/// A range of sheen roughness as Interpolant takes it. Plain numbers, as SheenAlbedo.
+struct SheenRoughnesses {
+  static constexpr std::size_t most = 24;
+
+  albedo::SheenRoughness lower, center, upper;
+  albedo::SheenRoughness place[most];  ///< between the ends of a wide one
+  std::size_t count;                   ///< of those
+};
+
+/// A range of alpha as GgxInterpolant takes it, likewise.
 struct GgxAlphas {
   static constexpr std::size_t most = 12;
 
@@ -64,20 +73,29 @@ template <class Real>
 struct AlbedoReader {
   using Lanes = number::Lanes<Real>;
 
-  /// E at a cosine and a sheen_roughness.
-  static Real sheen(const SheenAlbedo& albedo, const Real& cosine, const Real& sheen_roughness) {
-    if (albedo.curve != nullptr) {
-      return (*albedo.curve)(cosine);
+  /// E at one sheen roughness.
+  class Sheen {
+   public:
+    Sheen(const SheenAlbedo& albedo, const Real& sheen_roughness) : albedo_(albedo), sheen_roughness_(sheen_roughness) {}
+
+    Real operator()(const Real& cosine) const {
+      if (albedo_.curve != nullptr) {
+        return (*albedo_.curve)(cosine);
+      }
+      double c[Lanes::count];
+      double r[Lanes::count];
+      Lanes::store(c, cosine);
+      Lanes::store(r, sheen_roughness_);
+      for (std::size_t i = 0; i < Lanes::count; ++i) {
+        c[i] = (*albedo_.interpolant)(c[i], r[i]);
+      }
+      return Lanes::load(c);
     }
-    double c[Lanes::count];
-    double r[Lanes::count];
-    Lanes::store(c, cosine);
-    Lanes::store(r, sheen_roughness);
-    for (std::size_t i = 0; i < Lanes::count; ++i) {
-      c[i] = (*albedo.interpolant)(c[i], r[i]);
-    }
-    return Lanes::load(c);
-  }
+
+   private:
+    SheenAlbedo albedo_;
+    Real sheen_roughness_;
+  };
 
   /// E(N.L), which `read` gives. A type that knows it to be no larger than E(N.V) may give that, which does as well where the larger
   /// counts.

@@ -10,8 +10,14 @@
 namespace sheen::golden {
 
 template <class Precision>
-auto OneAlbedo<Precision>::sheen(const SheenAlbedo& albedo, const B& cosine, const B& sheen_roughness) -> B {
-  return AlbedoReader<B>::sheen(albedo, cosine, sheen_roughness);
+void OneAlbedo<Precision>::find(const B& sheen_roughness, SheenRoughnesses& roughnesses) {
+  SheenRange<B>::find(sheen_roughness, roughnesses);
+}
+
+template <class Precision>
+auto OneAlbedo<Precision>::sheen(const SheenAlbedo& albedo, const SheenRoughnesses& roughnesses, const B& cosine, const B& sheen_roughness)
+    -> B {
+  return SheenRange<B>::at(albedo, roughnesses, cosine, sheen_roughness);
 }
 
 template <class Precision>

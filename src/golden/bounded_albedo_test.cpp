@@ -56,7 +56,7 @@ TEST(BoundedAlbedo, HoldsEOfAllCosinesAndRoughnesses) {
     for (int i = 0; i < 300 && !HasFailure(); ++i) {
       const Bound cosine = some_range(albedo::min_n_dot_v, random);
       const Bound roughness = some_range(0.02, random);
-      const Bound bound = Reader::sheen(albedo, cosine, roughness);
+      const Bound bound = Reader::Sheen(albedo, roughness)(cosine);
       for (int c = 0; c <= places; ++c) {
         for (int r = 0; r <= places; r += 4) {
           const double n_dot_v = at(cosine, 1.0 * c / places);
@@ -81,7 +81,7 @@ TEST(BoundedAlbedo, HoldsEOfOneRoughnessAtAllCosines) {
       albedo.around = &around;
       for (int i = 0; i < 300 && !HasFailure(); ++i) {
         const Bound cosine = some_range(albedo::min_n_dot_v, random);
-        const Bound bound = Reader::sheen(albedo, cosine, roughness);
+        const Bound bound = Reader::Sheen(albedo, roughness)(cosine);
         for (int c = 0; c <= places; ++c) {
           const double n_dot_v = at(cosine, 1.0 * c / places);
           const double exact = e(n_dot_v, sheen_roughness);
@@ -199,7 +199,7 @@ TEST(BoundedAlbedo, HoldsCosinesWhoseCentreIsAtAnEnd) {
     ASSERT_EQ(cosine.center(), cosine.range().upper);
     const Bound alpha(0.375);
     const brdf::LobeAlbedo<Bound> of_ggx = Reader::Ggx({&ggx, nullptr}, alpha)(cosine);
-    const Bound of_sheen = Reader::sheen(albedo, cosine, alpha);
+    const Bound of_sheen = Reader::Sheen(albedo, alpha)(cosine);
     for (int c = 0; c <= places; ++c) {
       const double n_dot_v = at(cosine, 1.0 * c / places);
       const brdf::LobeAlbedo<double> exact = ggx(n_dot_v, alpha.center());
@@ -256,7 +256,7 @@ TEST(BoundedAlbedo, OfThePhysicalModelBendNoMoreBetweenTwoCosinesThanIsCounted) 
   const albedo::GgxInterpolant ggx;
   double loss = 0;
   double bias = 0;
-  constexpr double share = GgxRange<Bound>::narrow_cosines;
+  constexpr double share = narrow_cosines;
   for (int a = 0; a < 160; ++a) {
     const double alpha = std::pow(10.0, -8 * a / 160.0);
     for (int c = 0; c <= 400; ++c) {
@@ -272,6 +272,25 @@ TEST(BoundedAlbedo, OfThePhysicalModelBendNoMoreBetweenTwoCosinesThanIsCounted) 
   EXPECT_GT(loss, 0.2 * GgxRange<Bound>::loss_bends * share * share) << "and the figure is not beside the matter";
   EXPECT_LT(bias, GgxRange<Bound>::bias_bends * share * share);
   EXPECT_GT(bias, 0.2 * GgxRange<Bound>::bias_bends * share * share);
+}
+
+TEST(BoundedAlbedo, EBendsNoMoreBetweenTwoCosinesThanIsCounted) {
+  double most = 0;
+  for (const brdf::Visibility visibility : brdf::visibilities) {
+    const albedo::Interpolant e(visibility);
+    for (int a = 0; a < 120; ++a) {
+      const double sheen_roughness = std::pow(1e-3, a / 119.0);
+      for (int c = 0; c <= 400; ++c) {
+        const double cosine = std::pow(10.0, -4 * c / 400.0) / (1 + narrow_cosines);
+        const double lower = e(cosine, sheen_roughness);
+        const double middle = e(cosine * (1 + 0.5 * narrow_cosines), sheen_roughness);
+        const double upper = e(cosine * (1 + narrow_cosines), sheen_roughness);
+        most = std::max(most, std::abs(lower + upper - 2 * middle) / (2 * std::max(1.0, middle)));
+      }
+    }
+  }
+  EXPECT_LT(most, SheenRange<Bound>::e_bends * narrow_cosines * narrow_cosines);
+  EXPECT_GT(most, 0.2 * SheenRange<Bound>::e_bends * narrow_cosines * narrow_cosines) << "and the figure is not beside the matter";
 }
 
 TEST(BoundedAlbedo, OfThePhysicalModelChangeNoMoreWithBothArgumentsThanIsCounted) {

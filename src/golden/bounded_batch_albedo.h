@@ -21,20 +21,36 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
   using B = number::BoundedBatch<Precision>;
   using One = number::Bounded<Precision>;
 
-  static B sheen(const SheenAlbedo& albedo, const B& cosine, const B& sheen_roughness) {
-    B e(0.0);
-    number::BatchMask open(true);
-    if (albedo.around != nullptr) {
-      e = read(*albedo.around, cosine, sheen_roughness);
-      open = cosine.is_unbounded();
-    }
-    for (std::size_t i = 0; i < B::lanes; ++i) {
-      if (open.get(i)) {
-        e.set_lane(i, OneAlbedo<Precision>::sheen(albedo, cosine.template lane<One>(i), sheen_roughness.template lane<One>(i)));
+  /// At one roughness, see SheenRange.
+  class Sheen {
+   public:
+    Sheen(const SheenAlbedo& albedo, const B& roughness) : albedo_(albedo), roughness_(roughness) {
+      for (std::size_t i = 0; albedo.around == nullptr && i < B::lanes; ++i) {
+        OneAlbedo<Precision>::find(roughness.template lane<One>(i), roughnesses_[i]);
       }
     }
-    return e;
-  }
+
+    B operator()(const B& cosine) const {
+      B e(0.0);
+      number::BatchMask open(true);
+      if (albedo_.around != nullptr) {
+        e = read(*albedo_.around, cosine, roughness_);
+        open = cosine.is_unbounded();
+      }
+      for (std::size_t i = 0; i < B::lanes; ++i) {
+        if (open.get(i)) {
+          const One c = cosine.template lane<One>(i);
+          e.set_lane(i, OneAlbedo<Precision>::sheen(albedo_, roughnesses_[i], c, roughness_.template lane<One>(i)));
+        }
+      }
+      return e;
+    }
+
+   private:
+    SheenAlbedo albedo_;
+    B roughness_;
+    SheenRoughnesses roughnesses_[B::lanes];  // where not all surfaces have one
+  };
 
   template <class Read>
   static B for_light(const B& e_v, const B& n_dot_l, const B& n_dot_v, const Read& read) {
@@ -248,9 +264,14 @@ template <class Eight>
 struct AlbedoReaderOfHalves {
   using Bounds = AlbedoReader<typename Eight::Bounds>;
 
-  static Eight sheen(const SheenAlbedo& albedo, const Eight& cosine, const Eight& sheen_roughness) {
-    return number::by_halves([&](const auto& c, const auto& r) { return Bounds::sheen(albedo, c, r); }, cosine, sheen_roughness);
-  }
+  class Sheen {
+   public:
+    Sheen(const SheenAlbedo& albedo, const Eight& roughness) : first_(albedo, roughness.bounds(0)), last_(albedo, roughness.bounds(1)) {}
+    Eight operator()(const Eight& cosine) const { return Eight(first_(cosine.bounds(0)), last_(cosine.bounds(1))); }
+
+   private:
+    typename Bounds::Sheen first_, last_;
+  };
   template <class Read>
   static Eight for_light(const Eight& e_v, const Eight& n_dot_l, const Eight& n_dot_v, const Read& read) {
     const number::FloatMask falls = n_dot_v.lower() >= number::FloatBatch(static_cast<float>(albedo::decreasing_from));

@@ -45,32 +45,20 @@ struct GgxRange {
     }
     const albedo::GgxInterpolant& interpolant = *albedo.interpolant;
     if (!is_wide_roughness(alpha)) {
-      Kept cosines;
+      Kept<albedo::GgxCosine> cosines(albedo::GgxInterpolant::cosine);
       return narrow([&](double c, End a) { return interpolant(cosines.at(c), at_end(alphas, a)); }, cosine, alpha);
     }
-    auto center = albedo::GgxInterpolant::cosine(cosine.center());
+    albedo::GgxCosine center = albedo::GgxInterpolant::cosine(cosine.center());
     const Albedo value = interpolant(center, alphas.center);
-    const auto& range = cosine.range();
-    const double lower = std::max(range.lower, albedo::min_n_dot_v);
     if (is_over_decades(alpha)) {
-      return up_to_most(value, std::pow(1 - range.lower, 5), alpha);
+      return up_to_most(value, std::pow(1 - cosine.range().lower, 5), alpha);
     }
-    Grid grid(alphas.count);
-    const auto add = [&](double n_dot_v) {
-      auto there = albedo::GgxInterpolant::cosine(n_dot_v);
-      grid.add([&](std::size_t i) { return interpolant(there, alphas.place[i]); });
-    };
-    const double share = (range.upper - range.lower) / lower;
-    if (share <= narrow_cosines) {
-      add(range.lower);
-      add(range.upper);
-      return grid.held(value, share * share);
-    }
-    const Cosines steps(lower, range.upper, steps_in_e);
-    for (std::size_t i = 0; i <= steps.count; ++i) {
-      add(steps.place[i]);
-    }
-    return grid.held(value, 0);
+    Grids grids(alphas.count);
+    const double share = for_cosines(cosine, steps_in_e, [&](double c) {
+      albedo::GgxCosine there = albedo::GgxInterpolant::cosine(c);
+      grids.add([&](std::size_t i) { return interpolant(there, alphas.place[i]); });
+    });
+    return grids.held(value, share * share);
   }
 
   /// Over the hemisphere.
@@ -86,9 +74,9 @@ struct GgxRange {
     if (is_over_decades(alpha)) {
       return up_to_most(value, 1.0 / 21, alpha);
     }
-    Grid grid(alphas.count);
-    grid.add([&](std::size_t i) { return interpolant.average(alphas.place[i]); });
-    return grid.held(value, 0);
+    Grids grids(alphas.count);
+    grids.add([&](std::size_t i) { return interpolant.average(alphas.place[i]); });
+    return grids.held(value, 0);
   }
 
   // Over decades of alpha (bounded_albedo_test.cpp): the most that a lobe loses at any cosine, and what its bias is at the most beyond a
@@ -101,9 +89,8 @@ struct GgxRange {
   static constexpr double least_alpha_of_changes = 1e-6;
   static constexpr double loss_changes_together = 8;
   static constexpr double bias_changes_together = 0.4;
-  // What an albedo departs by, between two cosines no farther apart than that, from what it is at either, for each square of their share,
+  // What an albedo departs by, between two cosines as near as narrow_cosines, from what it is at either, for each square of their share,
   // likewise.
-  static constexpr double narrow_cosines = 0.01;
   static constexpr double loss_bends = 2;
   static constexpr double bias_bends = 0.2;
 
@@ -111,8 +98,6 @@ struct GgxRange {
   // Loss and bias bend over a ratio of e of either argument.
   static constexpr double steps_in_e = 4;
   static constexpr double wider_steps_in_e = 2;
-  static constexpr std::size_t most_steps = 40;
-  using Cosines = Steps<most_steps>;
   static constexpr double most_ratio = 130;  // that GgxAlphas has places for
 
   static const albedo::GgxAlpha& at_end(const GgxAlphas& alphas, End end) {
@@ -134,88 +119,38 @@ struct GgxRange {
   static double loss_error(double loss) { return albedo::ggx_table_error * loss; }
   static double bias_error() { return albedo::ggx_table_error; }
 
-  /// A range without a slope.
-  static B within(double value, double lowest, double highest, double off) {
-    return B::rounded({value, 0, 0, std::max(highest - value, value - lowest), {lowest, highest}}, B::Error::absolute(0, off), true);
-  }
   /// @param mirror  a mirror's bias
   static brdf::LobeAlbedo<B> up_to_most(const Albedo& value, double mirror, const B& alpha) {
     const double loss = std::max(value.loss, most_loss(alpha.range().upper));
-    return {within(value.loss, 0, loss, loss_error(loss)), within(value.bias, 0, std::max(value.bias, mirror + more_bias), bias_error())};
+    const double bias = std::max(value.bias, mirror + more_bias);
+    return {within<B>(value.loss, {0, loss}, loss_error(loss)), within<B>(value.bias, {0, bias}, bias_error())};
   }
 
-  /// The last few cosines asked for: a range's centre, ends and middle.
-  class Kept {
+  class Grids {
    public:
-    albedo::GgxCosine& at(double n_dot_v) {
-      for (std::size_t i = 0; i < std::min(count_, most); ++i) {
-        if (value_[i] == n_dot_v) {
-          return place_[i];
-        }
-      }
-      const std::size_t next = count_++ % most;
-      value_[next] = n_dot_v;
-      return place_[next] = albedo::GgxInterpolant::cosine(n_dot_v);
-    }
-
-   private:
-    static constexpr std::size_t most = 4;
-    std::array<double, most> value_;
-    std::array<albedo::GgxCosine, most> place_;
-    std::size_t count_ = 0;
-  };
-
-  /// Albedos at places of a cosine and of alpha: about each they are beyond what they are there by no more than twice what parabolas
-  /// through it and two neighbours are.
-  class Grid {
-   public:
-    /// @param alphas  how many
-    explicit Grid(std::size_t alphas) : columns_(alphas) {}
+    explicit Grids(std::size_t alphas) : loss_(alphas), bias_(alphas) {}
 
     /// The next cosine's. @param at  albedos at the alphas
     template <class At>
     void add(const At& at) {
-      for (std::size_t i = 0; i < columns_; ++i) {
-        place_[rows_][i] = at(i);
-      }
-      ++rows_;
+      std::array<double, GgxAlphas::most> bias;
+      loss_.add([&](std::size_t i) {
+        const Albedo there = at(i);
+        bias[i] = there.bias;
+        return there.loss;
+      });
+      bias_.add([&](std::size_t i) { return bias[i]; });
     }
 
     /// @param square  of the share by which two cosines differ, if they are all
     brdf::LobeAlbedo<B> held(const Albedo& value, double square) const {
-      const auto made = [&](double Albedo::*member, double relative, double absolute, const auto& error) {
-        double lowest = value.*member;
-        double highest = value.*member;
-        for (std::size_t r = 0; r < rows_; ++r) {
-          for (std::size_t c = 0; c < columns_; ++c) {
-            const double along = bend(r, rows_, [&](std::size_t i) { return place_[i][c].*member; });
-            const double across = bend(c, columns_, [&](std::size_t i) { return place_[r][i].*member; });
-            const double there = place_[r][c].*member;
-            lowest = std::min(lowest, there - (along + across));
-            highest = std::max(highest, there + (along + across));
-          }
-        }
-        lowest = std::max(0.0, lowest * (1 - relative) - absolute);
-        highest = highest * (1 + relative) + absolute;
-        return within(value.*member, lowest, highest, error(highest));
-      };
-      return {made(&Albedo::loss, loss_bends * square, 0.0, [](double loss) { return loss_error(loss); }),
-              made(&Albedo::bias, 0.0, bias_bends * square, [](double) { return bias_error(); })};
+      const number::Range loss = loss_.held(value.loss, loss_bends * square, 0);
+      const number::Range bias = bias_.held(value.bias, 0, bias_bends * square);
+      return {within<B>(value.loss, loss, loss_error(loss.upper)), within<B>(value.bias, bias, bias_error())};
     }
 
    private:
-    /// About the place at i of so many.
-    template <class At>
-    static double bend(std::size_t i, std::size_t count, const At& at) {
-      double most = 0;
-      for (std::size_t last = std::max<std::size_t>(i, 2); last <= i + 2 && last < count; ++last) {
-        most = std::max(most, 0.25 * std::abs(at(last - 2) + at(last) - 2.0 * at(last - 1)));
-      }
-      return most;
-    }
-
-    std::array<std::array<Albedo, GgxAlphas::most>, most_steps + 1> place_;
-    std::size_t rows_ = 0, columns_;
+    AlbedoGrid<GgxAlphas::most> loss_, bias_;
   };
 
   /// An albedo that is asked at the same places twice, in the same order, and found once.
@@ -251,7 +186,7 @@ struct GgxRange {
   /// @param albedo  of a cosine, at an end of alpha
   template <class OfEnds>
   static brdf::LobeAlbedo<B> narrow(const OfEnds& albedo, const B& cosine, const B& alpha) {
-    const Cosines cosines(std::max(cosine.range().lower, albedo::min_n_dot_v), cosine.range().upper, steps_in_e);
+    const Steps<most_cosine_steps> cosines(std::max(cosine.range().lower, albedo::min_n_dot_v), cosine.range().upper, steps_in_e);
     const bool is_mirror = alpha.range().upper <= albedo::mirror_alpha;  // whose albedos only fall
     const double share = share_of(alpha);
     Once<OfEnds> once(albedo);
@@ -272,7 +207,7 @@ struct GgxRange {
       const auto together = [&](double there) {
         return alpha.range().lower >= least_alpha_of_changes ? most_together * size(there) * share : not_known(there);
       };
-      return read_albedo(f, nothing_across, turn, true, error, together, cosine, alpha);
+      return read_albedo(f, turn, true, error, together, cosine, alpha);
     };
     const auto loss = of(
         &Albedo::loss, [](double there) { return there; }, loss_changes_together,
@@ -295,7 +230,7 @@ struct GgxRange {
           }
         }
       };
-      return read_albedo([&f](double c, End) { return f(c); }, nothing_across, turn, true, error, not_known, cosine, B(1));
+      return read_albedo([&f](double c, End) { return f(c); }, turn, true, error, not_known, cosine, B(1));
     };
     return {of([&](double c) { return around.at(c).loss; }, around.loss,
                [&](double loss, double, double) { return loss_error(loss) + changes * loss; }),
@@ -303,7 +238,6 @@ struct GgxRange {
   }
 
   static double not_known(double /*value*/) { return std::numeric_limits<double>::infinity(); }
-  static constexpr auto nothing_across = [](double /*cosine*/, const auto& /*include*/) {};
 };
 
 }  // namespace sheen::golden

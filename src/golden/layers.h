@@ -153,10 +153,10 @@ class SheenLayer {
   SheenLayer(const Surface<Real>& surface, const LobeView<Real>& lobe, const Lighting& lighting)
       : lobe_(lighting.sheen.visibility, As<Lobe>::number(surface.sheen_roughness), As<Lobe>::number(lobe.n_dot_v)),
         lighting_(lighting),
-        roughness_(surface.sheen_roughness),
+        albedo_at_(lighting.albedo, surface.sheen_roughness),
         n_dot_v_(lobe.n_dot_v),
         strength_(brdf::max3(surface.sheen_color)),
-        e_v_(albedo_at(n_dot_v_)) {}
+        e_v_(albedo_at_(n_dot_v_)) {}
 
   const Real& e_v() const { return e_v_; }
   const brdf::SheenLobe<Lobe>& lobe() const { return lobe_; }
@@ -165,7 +165,7 @@ class SheenLayer {
   template <class Mask>
   Real e_l(const Mask& lit, const Real& n_dot_l) const {
     using brdf::select;
-    return albedo_at(select(lit, n_dot_l, n_dot_v_));
+    return albedo_at_(select(lit, n_dot_l, n_dot_v_));
   }
 
   bool two_directions() const {
@@ -184,11 +184,10 @@ class SheenLayer {
   }
 
  private:
-  Real albedo_at(const Real& cosine) const { return AlbedoReader<Real>::sheen(lighting_.albedo, cosine, roughness_); }
-
   brdf::SheenLobe<Lobe> lobe_;
   const Lighting& lighting_;
-  Real roughness_, n_dot_v_;
+  typename AlbedoReader<Real>::Sheen albedo_at_;  // E at a cosine
+  Real n_dot_v_;
   Real strength_;  // sheenColor's largest channel
   Real e_v_;
 };

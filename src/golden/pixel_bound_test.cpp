@@ -57,9 +57,13 @@ namespace sheen::golden {
 template <class Precision>
 struct AlbedoReader<number::test::Perturbed<Precision>> {
   using P = number::test::Perturbed<Precision>;
-  static P sheen(const SheenAlbedo& albedo, const P& cosine, const P& roughness) {
-    return P((*albedo.interpolant)(cosine.value(), roughness.value()));
-  }
+  struct Sheen {
+    Sheen(const SheenAlbedo& albedo, const P& roughness) : interpolant(*albedo.interpolant), at(roughness.value()) {}
+    P operator()(const P& cosine) const { return P(interpolant(cosine.value(), at)); }
+
+    const albedo::Interpolant& interpolant;
+    double at;
+  };
   template <class Read>
   static P for_light(const P&, const P&, const P&, const Read& read) {
     return read();

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace sheen::albedo {
+
+// Places in a grid of patches, each a polynomial through `nodes` x `nodes` values: what interpolation takes of one argument, to be asked
+// for with many of the other. Plain numbers, so that a batched translation unit may hold them; the interpolants make them.
+
+/// Along y.
+template <int nodes>
+struct PlaceInRow {
+  double value;  ///< the argument itself
+  int row;       ///< of patches
+  std::array<double, nodes> shares;
+};
+
+/// Along x. What it makes of a patch, which is all that the places in a row of patches ask of it, is kept.
+template <int nodes, class Value>
+struct PlaceInColumn {
+  /// The patch at x: what it holds at its nodes along y.
+  struct Column {
+    int row;
+    bool usable;
+    std::array<Value, nodes> values;
+  };
+
+  double value;
+  int column;
+  std::array<double, nodes> shares;
+  std::array<Column, 3> kept;  ///< the last ones
+  std::size_t made;            ///< of those ever kept; 0 at first
+
+  /// @param make  the column in that row
+  template <class Make>
+  const Column& in(int row, const Make& make) {
+    for (std::size_t i = 0; i < made && i < kept.size(); ++i) {
+      if (kept[i].row == row) {
+        return kept[i];
+      }
+    }
+    return kept[made++ % kept.size()] = make();
+  }
+};
+
+}  // namespace sheen::albedo
