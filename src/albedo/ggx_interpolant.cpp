@@ -167,9 +167,10 @@ GgxAlbedo GgxInterpolant::operator()(GgxCosine& n_dot_v, const GgxAlpha& alpha) 
   if (std::isnan(n_dot_v.value)) {
     return {n_dot_v.value, n_dot_v.value};
   }
-  const GgxCosine::Column& column = n_dot_v.in(alpha.row, [&]() -> GgxCosine::Column {
+  const GgxCosine::Column& column = n_dot_v.in(alpha.row, [&](bool& usable, Line& values) {
     const Patch& patch = impl_->patch(n_dot_v.column, alpha.row);
-    return {alpha.row, patch.usable, patch.column(n_dot_v.shares)};
+    usable = patch.usable;
+    values = patch.column(n_dot_v.shares);
   });
   return column.usable ? albedo_of(between(column.values, alpha.shares)) : ggx_albedo(n_dot_v.value, alpha.value);
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <mutex>
-#include <type_traits>
 
 #include "albedo/chebyshev.h"
 #include "albedo/coordinates.h"
@@ -63,6 +62,23 @@ struct Patch {
   double at(double t_x, double t_y) const { return between(column(chebyshev().shares(t_x)), chebyshev().shares(t_y)); }
 };
 
+double tangent_of(double n_dot_v) {
+  return half_elevation_tangent(std::min(std::max(n_dot_v, min_n_dot_v), 1.0));
+}
+
+SheenCosine cosine_at(double t, double log_peak) {
+  SheenCosine of;
+  of.t.value = t;
+  of.t.made = 0;
+  of.log_peak = log_peak;
+  if (!std::isnan(t)) {
+    const double u = std::log(t) / -patch_x;  // in patches
+    of.t.column = Curve::patch_at(u);
+    of.t.shares = chebyshev().shares(1 - 2 * (u - Curve::start_of(of.t.column)) / Curve::length_of(of.t.column));
+  }
+  return of;
+}
+
 }  // namespace
 
 struct Interpolant::Impl {
@@ -109,17 +125,8 @@ Interpolant::Interpolant(Interpolant&&) noexcept = default;
 Interpolant& Interpolant::operator=(Interpolant&&) noexcept = default;
 
 SheenCosine Interpolant::cosine(double n_dot_v) {
-  SheenCosine of;
-  const double t = half_elevation_tangent(std::min(std::max(n_dot_v, min_n_dot_v), 1.0));
-  of.t.value = t;
-  of.t.made = 0;
-  of.log_peak = std::log1p(t * t);
-  if (!std::isnan(t)) {
-    const double u = std::log(t) / -patch_x;  // in patches
-    of.t.column = Curve::patch_at(u);
-    of.t.shares = chebyshev().shares(1 - 2 * (u - Curve::start_of(of.t.column)) / Curve::length_of(of.t.column));
-  }
-  return of;
+  const double t = tangent_of(n_dot_v);
+  return cosine_at(t, std::log1p(t * t));
 }
 
 SheenRoughness Interpolant::roughness(double sheen_roughness) {
@@ -141,9 +148,10 @@ double Interpolant::operator()(SheenCosine& n_dot_v, const SheenRoughness& sheen
     return 0;
   }
   auto& t = n_dot_v.t;
-  const auto& column = t.in(sheen_roughness.r.row, [&]() -> std::decay_t<decltype(t)>::Column {
+  const auto& column = t.in(sheen_roughness.r.row, [&](bool& usable, Nodes& values) {
     const Patch& patch = impl_->patch(t.column, sheen_roughness.r.row);
-    return {sheen_roughness.r.row, patch.usable, patch.column(t.shares)};
+    usable = patch.usable;
+    values = patch.column(t.shares);
   });
   if (!column.usable) {
     return directional_albedo(impl_->visibility, cosine_of(t.value), sheen_roughness.r.value);
@@ -152,8 +160,15 @@ double Interpolant::operator()(SheenCosine& n_dot_v, const SheenRoughness& sheen
 }
 
 double Interpolant::operator()(double n_dot_v, double sheen_roughness) const {
-  SheenCosine one = cosine(n_dot_v);
-  return (*this)(one, roughness(sheen_roughness));
+  const double t = tangent_of(n_dot_v);
+  const double log_peak = std::log1p(t * t);
+  const double r = std::min(sheen_roughness, 1.0);
+  // Much of what narrow peaks are asked for is nothing, which no place need be found for.
+  if (!(r > 0) || !(0.5 / (r * r) * log_peak < negligible_drop)) {
+    return 0;
+  }
+  SheenCosine one = cosine_at(t, log_peak);
+  return (*this)(one, roughness(r));
 }
 
 Curve Interpolant::at_roughness(double sheen_roughness) const {

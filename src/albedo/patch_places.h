@@ -32,7 +32,7 @@ struct PlaceInColumn {
   std::array<Column, 3> kept;  ///< the last ones
   std::size_t made;            ///< of those ever kept; 0 at first
 
-  /// @param make  the column in that row
+  /// @param make  whether the patch in that row is usable, and its values
   template <class Make>
   const Column& in(int row, const Make& make) {
     for (std::size_t i = 0; i < made && i < kept.size(); ++i) {
@@ -40,7 +40,10 @@ struct PlaceInColumn {
         return kept[i];
       }
     }
-    return kept[made++ % kept.size()] = make();
+    Column& next = kept[made++ % kept.size()];
+    next.row = row;
+    make(next.usable, next.values);
+    return next;
   }
 };
 
