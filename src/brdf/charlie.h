@@ -67,7 +67,7 @@ LambdaCurve<Real> mixed_charlie_coefficients(const Mix& mix) {
 template <class Real>
 LambdaCurve<Real> charlie_lambda_curve(Real alpha_g) {
   const Real t = (Real(1) - alpha_g) * (Real(1) - alpha_g);
-  return mixed_charlie_coefficients<Real>([&t](double x, double y) { return Real(x) * (Real(1) - t) + Real(y) * t; });
+  return mixed_charlie_coefficients<Real>([&t](double x, double y) { return mix(x, y, t); });
 }
 
 /// l's coefficients of "refined Charlie", Enterprise PBR Shading Model 2022x, sheen: w p1 + (1-w) p0 with
@@ -79,8 +79,8 @@ LambdaCurve<Real> refined_lambda_curve(Real alpha_g) {
   // The power grows without limit toward alpha_g = 0, where the lobe itself is nothing.
   const Real alpha = max(alpha_g, Real(1e-9));
   const Real w = Real(1.32805) - Real(1.59612) / (Real(1) + Real(0.20375) * pow(alpha, Real(-0.55825)));
-  const auto mix = [&w](double p0, double p1) { return w * Real(p1) + (Real(1) - w) * Real(p0); };
-  return {mix(11.9095, 13.7000), mix(4.68753, 2.92754), mix(0.33467, 0.28670), mix(-2.22664, -0.81757), mix(-1.76591, -1.22466)};
+  const auto at = [&w](double p0, double p1) { return mix(p0, p1, w); };
+  return {at(11.9095, 13.7000), at(4.68753, 2.92754), at(0.33467, 0.28670), at(-2.22664, -0.81757), at(-1.76591, -1.22466)};
 }
 
 /// Visibility of the sheen lobe times N.L, in 1/sr: G N.L / (4 N.L N.V) = 1 / ((1 + Lambda(N.V) + Lambda(N.L)) 4 N.V).

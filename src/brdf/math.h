@@ -50,6 +50,12 @@ auto select_of(const Condition& condition, const A& a, const B& b) {
   return select(condition, a(), b());
 }
 
+/// x (1 - t) + y t of two constants. A number type may bring its own, which knows that it is one t.
+template <class Real>
+Real mix(double x, double y, const Real& t) {
+  return Real(x) * (Real(1) - t) + Real(y) * t;
+}
+
 /// x^y for y > 0 and x >= 0, which is 0 at x = 0. Apart from pow, since GLSL derives pow from log2 and promises nothing at 0: shaders
 /// branch there, and a number type that knows of it brings its own.
 template <class Real>

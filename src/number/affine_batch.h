@@ -162,6 +162,17 @@ class AffineBatch {
     return by_halves([](const Bounds& v, const Bounds& w) { return pow_from_zero(v, w); }, x, y);
   }
 
+  /// Float's own roundings, of both constants and of the centre, are no more than half of a shader's.
+  friend AffineBatch mix(double x, double y, const AffineBatch& t) {
+    const FloatBatch step(static_cast<float>(y - x));
+    const FloatBatch rest = xsimd::abs(FloatBatch(1.0F) - t.center_) + t.spread_;
+    const FloatBatch errors = FloatBatch(1.5F) * mix_error<Highp>(x, y, rest, t.magnitude());
+    AffineBatch mixed;
+    mixed.round(xsimd::fma(step, t.center_, FloatBatch(static_cast<float>(x))), step * t.shift_x_, step * t.shift_y_,
+                xsimd::fma(xsimd::abs(step), t.radius_, errors), 0);
+    return mixed;
+  }
+
   /// In these lanes, this becomes the other.
   void take(const FloatMask& where, const AffineBatch& other) {
     center_ = xsimd::select(where, other.center_, center_);

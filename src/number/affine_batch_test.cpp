@@ -31,6 +31,7 @@ double more_of_operands(std::string_view operation, const Single& x, const Singl
     return 4 * 0x1p-23 * std::abs(result.center()) *
            (std::abs(x.center()) + std::abs(y.center()) * (1 + std::abs(std::log(std::abs(x.center())))));
   }
+  if (operation == "mix") return 16 * 0x1p-23 * (1 + std::abs(x.center()));
   return operation == "log" || operation == "log1p" ? 4 * 0x1p-23 : 0;
 }
 

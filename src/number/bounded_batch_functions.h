@@ -191,4 +191,19 @@ BoundedBatch<Precision> sqrt(const BoundedBatch<Precision>& x) {
   return out;
 }
 
+template <class Precision>
+BoundedBatch<Precision> mix(double x, double y, const BoundedBatch<Precision>& t) {
+  using B = BoundedBatch<Precision>;
+  const Batch step(y - x);
+  const Batch at_lower = Batch(x) + step * t.lower();
+  const Batch at_upper = Batch(x) + step * t.upper();
+  const Batch rest = xsimd::max(xsimd::abs(Batch(1.0) - t.lower()), xsimd::abs(Batch(1.0) - t.upper()));
+  const Batch largest = xsimd::max(xsimd::abs(t.lower()), xsimd::abs(t.upper()));
+  B made(0.0);
+  made.round({Batch(x) + step * t.center(), step * t.shift_x(), step * t.shift_y(), xsimd::abs(step) * t.radius(),
+              xsimd::min(at_lower, at_upper), xsimd::max(at_lower, at_upper)},
+             B::Error::absolute(0, mix_error<Precision>(x, y, rest, largest)), false);
+  return made;
+}
+
 }  // namespace sheen::number

@@ -45,6 +45,7 @@ std::vector<Operation<Precision>> operations() {
           operation("a constant", 0, [](const auto& a, const auto&) { return std::remove_cvref_t<decltype(a)>(0.1) * a; }),
           operation("a power of two", 0, [](const auto& a, const auto&) { return std::remove_cvref_t<decltype(a)>(0.5) * a; }),
           operation("nothing", 0, [](const auto& a, const auto& b) { return std::remove_cvref_t<decltype(a)>(0) * a + b; }),
+          operation("mix", 0, [](const auto& a, const auto&) { return mix(0.3, -2.1, a); }),
           operation("inversesqrt", 0, [](const auto& a, const auto&) { return inversesqrt(a); }),
           operation("sqrt", 0, [](const auto& a, const auto&) { return sqrt(a); }),
           operation("exp", 4, [](const auto& a, const auto&) { return exp(a); }),

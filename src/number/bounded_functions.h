@@ -197,4 +197,22 @@ Bounded<Precision> sqrt(const Bounded<Precision>& x) {
   return dividend.is_bounded() ? B::rounded(dividend.as_exact(), B::Error::ulps(division_ulps), false) : dividend;
 }
 
+/// x (1 - t) + y t: what t may be moves it by the difference of the two constants alone.
+template <class Precision>
+Bounded<Precision> mix(double x, double y, const Bounded<Precision>& t) {
+  using B = Bounded<Precision>;
+  const double step = y - x;
+  const double center = x + step * t.center();
+  if (!t.is_bounded()) return B::unbounded(center);
+  const double at_lower = x + step * t.range().lower;
+  const double at_upper = x + step * t.range().upper;
+  const double rest = std::max(std::abs(1 - t.range().lower), std::abs(1 - t.range().upper));
+  return B::rounded({center,
+                     step * t.shift_x(),
+                     step * t.shift_y(),
+                     std::abs(step) * t.radius(),
+                     {std::min(at_lower, at_upper), std::max(at_lower, at_upper)}},
+                    B::Error::absolute(0, mix_error<Precision>(x, y, rest, t.range().magnitude())), false);
+}
+
 }  // namespace sheen::number

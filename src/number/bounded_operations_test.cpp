@@ -53,6 +53,26 @@ struct Operation {
   double least_reached;  ///< share of the bound that the worst of the evaluations reaches, in the median over exact operands
 };
 
+// Two ways in which a shader may have it.
+template <class Precision>
+Perturbed<Precision> spelled_mix(double x, double y, const Perturbed<Precision>& t) {
+  using Real = Perturbed<Precision>;
+  return Real(x) * (Real(1) - t) + Real(y) * t;
+}
+template <class Precision>
+Perturbed<Precision> difference_mix(double x, double y, const Perturbed<Precision>& t) {
+  using Real = Perturbed<Precision>;
+  return Real(x) + (Real(y) - Real(x)) * t;
+}
+template <class Precision>
+Bounded<Precision> spelled_mix(double x, double y, const Bounded<Precision>& t) {
+  return mix(x, y, t);
+}
+template <class Precision>
+Bounded<Precision> difference_mix(double x, double y, const Bounded<Precision>& t) {
+  return mix(x, y, t);
+}
+
 template <class Precision>
 std::vector<Operation<Precision>> operations() {
   const auto operation = [](const char* name, double least_reached, auto f) { return Operation<Precision>{name, f, f, least_reached}; };
@@ -69,6 +89,8 @@ std::vector<Operation<Precision>> operations() {
           operation("inversesqrt a", 0.7, [](const auto& a, const auto&) { return inversesqrt(a); }),
           operation("sqrt a", 0.6, [](const auto& a, const auto&) { return sqrt(a); }),
           operation("pow(a, b)", 0.5, [](const auto& a, const auto& b) { return pow(a, b); }),
+          operation("mix", 0.2, [](const auto& a, const auto&) { return spelled_mix(21.5, 25.3, a); }),
+          operation("mix by a difference", 0.2, [](const auto& a, const auto&) { return difference_mix(-2.1, 0.3, a); }),
           operation("max(a, b)", 0, [](const auto& a, const auto& b) { return max(a, b); }),
           operation("min(a, b)", 0, [](const auto& a, const auto& b) { return min(a, b); }),
           operation("|a - b|", 0.6, [](const auto& a, const auto& b) { return abs(a - b); }),

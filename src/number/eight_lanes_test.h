@@ -72,6 +72,9 @@ std::vector<Operation<Eight>> operations() {
       operation(
           "the rest", false, [constant](const auto& a, const auto&) { return constant(a, 1) - a; }, [](double a, double) { return 1 - a; }),
       operation(
+          "mix", false, [](const auto& a, const auto&) { return mix(0.3, -2.1, a); },
+          [](double a, double) { return 0.3 * (1 - a) - 2.1 * a; }),
+      operation(
           "inversesqrt", true, [](const auto& a, const auto&) { return inversesqrt(a); },
           [](double a, double) { return 1 / std::sqrt(a); }),
       operation(

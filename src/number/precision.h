@@ -104,4 +104,19 @@ bool is_representable(double x) {
   return magnitude < smallest_normal<Precision> && steps == std::floor(steps);
 }
 
+/// What a shader's x (1 - t) + y t of two constants may be off, or x + (y - x) t, as some make of the built-in mix(): the constants'
+/// roundings, the last sum's, and those of 1 - t and both products, or of the difference and its product.
+/// @param rest, t  the largest |1 - t| and |t|
+template <class Precision, class Number>
+Number mix_error(double x, double y, const Number& rest, const Number& t) {
+  using std::max;
+  constexpr double unit = epsilon<Precision> * (1 + 0x1p-20);  // and errors of errors
+  const double of_x = (is_representable<Precision>(x) ? 1 : 2) * std::abs(x);
+  const double of_y = (is_representable<Precision>(y) ? 1 : 2) * std::abs(y);
+  const double flushed = 4 * smallest_normal<Precision> * (1 + std::abs(x) + std::abs(y));
+  const Number products = Number(2 * unit * std::abs(x)) * rest + Number(unit * std::abs(y)) * t;
+  const Number difference = Number(2 * unit * std::abs(y - x)) * t;
+  return (Number(unit * of_x) * rest + Number(unit * of_y) * t) + (max(products, difference) + Number(flushed));
+}
+
 }  // namespace sheen::number

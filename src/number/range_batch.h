@@ -141,6 +141,17 @@ class RangeBatch {
   friend RangeBatch log1p(const RangeBatch& x) {
     return by_halves([](const Bounds& y) { return log1p(y); }, x);
   }
+  /// As AffineBatch's.
+  friend RangeBatch mix(double x, double y, const RangeBatch& t) {
+    const auto at = [&](const FloatBatch& v) {
+      return xsimd::fma(FloatBatch(static_cast<float>(y - x)), v, FloatBatch(static_cast<float>(x)));
+    };
+    const RangeBatch exact = y < x ? RangeBatch(at(t.upper_), at(t.lower_)) : RangeBatch(at(t.lower_), at(t.upper_));
+    const FloatBatch one(1.0F);
+    const FloatBatch rest = xsimd::max(xsimd::abs(one - t.lower_), xsimd::abs(one - t.upper_));
+    const FloatBatch errors = FloatBatch(1.5F) * mix_error<Highp>(x, y, rest, xsimd::max(xsimd::abs(t.lower_), xsimd::abs(t.upper_)));
+    return {exact.lower_ - errors, exact.upper_ + errors};
+  }
   friend RangeBatch pow(const RangeBatch& x, const RangeBatch& y) {
     return by_halves([](const Bounds& v, const Bounds& w) { return pow(v, w); }, x, y);
   }
