@@ -167,8 +167,12 @@ double expect_held(Comparison& c, std::mt19937& random) {
     s.sheen_roughness = Bound(0.3);
   }
   std::vector<double> shares;
-  for (const int kind : {0, 1, 2}) {
+  for (const int kind : {0, 1, 2, 3}) {
     const bool physical = kind == 2;
+    for (std::size_t i = 0; kind == 3 && i < c.surfaces.size(); ++i) {  // each of its own roughness, hardly open to half
+      const double center = std::uniform_real_distribution<double>(0.2, 0.9)(random);
+      c.surfaces[i].sheen_roughness = Bound::within(center, 0.005 * std::pow(100.0, static_cast<double>(i) / 203) * center);
+    }
     Lighting lighting;
     lighting.lights = c.lights.data();
     lighting.light_count = c.lights.size();
