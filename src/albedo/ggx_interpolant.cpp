@@ -140,7 +140,6 @@ GgxInterpolant& GgxInterpolant::operator=(GgxInterpolant&&) noexcept = default;
 GgxCosine GgxInterpolant::cosine(double n_dot_v) {
   GgxCosine of;
   of.value = std::min(std::max(n_dot_v, min_n_dot_v), 1.0);
-  of.made = 0;
   if (!std::isnan(of.value)) {
     const double u = std::log(half_elevation_tangent(of.value)) / -patch_x;  // in patches
     of.column = std::min(static_cast<int>(u), patches_x - 1);

@@ -69,7 +69,6 @@ double tangent_of(double n_dot_v) {
 SheenCosine cosine_at(double t, double log_peak) {
   SheenCosine of;
   of.t.value = t;
-  of.t.made = 0;
   of.log_peak = log_peak;
   if (!std::isnan(t)) {
     const double u = std::log(t) / -patch_x;  // in patches

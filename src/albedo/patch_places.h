@@ -30,7 +30,7 @@ struct PlaceInColumn {
   int column;
   std::array<double, nodes> shares;
   std::array<Column, 3> kept;  ///< the last ones
-  std::size_t made;            ///< of those ever kept; 0 at first
+  std::size_t made = 0;        ///< of those ever kept
 
   /// @param make  whether the patch in that row is usable, and its values
   template <class Make>

@@ -49,7 +49,7 @@ inline constexpr double changes_with_alpha = 4;
 
 /// A range of sheen roughness as Interpolant takes it. Plain numbers, as SheenAlbedo.
 struct SheenRoughnesses {
-  static constexpr std::size_t most = 24;
+  static constexpr std::size_t most = 36;
 
   albedo::SheenRoughness lower, center, upper;
   albedo::SheenRoughness place[most];  ///< between the ends of a wide one
@@ -58,7 +58,7 @@ struct SheenRoughnesses {
 
 /// A range of alpha as GgxInterpolant takes it, likewise.
 struct GgxAlphas {
-  static constexpr std::size_t most = 12;
+  static constexpr std::size_t most = 18;
 
   albedo::GgxAlpha lower, center, upper;
   albedo::GgxAlpha place[most];  ///< between the ends of a wide one

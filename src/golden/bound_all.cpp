@@ -4,13 +4,15 @@
 
 #include "golden/bounded_albedo.h"
 #include "golden/bounded_mediump.h"
+#include "golden/ggx_range.h"
+#include "golden/sheen_range.h"
 #include "number/bounded_functions.h"
 #include "number/cpu.h"
 
 namespace sheen::golden {
 
 template <class Precision>
-void OneAlbedo<Precision>::find(const B& sheen_roughness, SheenRoughnesses& roughnesses) {
+void OneAlbedo<Precision>::find_roughnesses(const B& sheen_roughness, SheenRoughnesses& roughnesses) {
   SheenRange<B>::find(sheen_roughness, roughnesses);
 }
 
@@ -21,7 +23,7 @@ auto OneAlbedo<Precision>::sheen(const SheenAlbedo& albedo, const SheenRoughness
 }
 
 template <class Precision>
-void OneAlbedo<Precision>::find(const B& alpha, GgxAlphas& alphas) {
+void OneAlbedo<Precision>::find_alphas(const B& alpha, GgxAlphas& alphas) {
   GgxRange<B>::find(alpha, alphas);
 }
 

@@ -15,8 +15,8 @@ template <class Precision>
 struct OneAlbedo {
   using B = number::Bounded<Precision>;
   // What the others take of a roughness and of an alpha.
-  static void find(const B& sheen_roughness, SheenRoughnesses& roughnesses);
-  static void find(const B& alpha, GgxAlphas& alphas);
+  static void find_roughnesses(const B& sheen_roughness, SheenRoughnesses& roughnesses);
+  static void find_alphas(const B& alpha, GgxAlphas& alphas);
   static B sheen(const SheenAlbedo& albedo, const SheenRoughnesses& roughnesses, const B& cosine, const B& sheen_roughness);
   static brdf::LobeAlbedo<B> ggx(const BaseAlbedo& albedo, const GgxAlphas& alphas, const B& cosine, const B& alpha);
   static brdf::LobeAlbedo<B> ggx_average(const BaseAlbedo& albedo, const GgxAlphas& alphas, const B& alpha);

@@ -69,6 +69,33 @@ TEST(BoundedAlbedo, HoldsEOfAllCosinesAndRoughnesses) {
   }
 }
 
+// Toward grazing E is to be seen down to a roughness of 7e-6, and rises from nothing to its peak within a ratio of e.
+TEST(BoundedAlbedo, HoldsEOfTheSmallestRoughnesses) {
+  std::mt19937 random(10);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (const brdf::Visibility visibility : brdf::visibilities) {
+    const albedo::Interpolant e(visibility);
+    SheenAlbedo albedo;
+    albedo.interpolant = &e;
+    for (int i = 0; i < 2000 && !HasFailure(); ++i) {
+      const double lower = i % 10 == 0 ? 0.0 : 1e-7 * std::pow(1e7, unit(random));
+      const double upper = std::min(1.0, std::max(lower, 1e-6) * (1.06 + std::pow(1e5, unit(random)) - 1));
+      const Bound roughness = Bound::within(0.5 * (lower + upper), 0.5 * (upper - lower));
+      const Bound cosine = some_range(albedo::min_n_dot_v, random);
+      const Bound bound = Reader::Sheen(albedo, roughness)(cosine);
+      for (int c = 0; c <= places; c += 2) {
+        for (int r = 0; r <= places; ++r) {
+          const double n_dot_v = at(cosine, 1.0 * c / places);
+          const double from = std::max(roughness.range().lower, 1e-8);
+          const double sheen_roughness = from * std::pow(roughness.range().upper / from, 1.0 * r / places);
+          const double exact = e(n_dot_v, sheen_roughness);
+          expect_held(bound, exact, albedo::lookup_error(exact, n_dot_v, sheen_roughness), cosine, roughness);
+        }
+      }
+    }
+  }
+}
+
 TEST(BoundedAlbedo, HoldsEOfOneRoughnessAtAllCosines) {
   std::mt19937 random(6);
   for (const brdf::Visibility visibility : brdf::visibilities) {
@@ -102,8 +129,8 @@ TEST(BoundedAlbedo, HoldsThePhysicalModels) {
     for (int c = 0; c <= places; ++c) {
       for (int r = 0; r <= places; r += 4) {
         const brdf::LobeAlbedo<double> exact = ggx(at(cosine, 1.0 * c / places), at(alpha, 1.0 * r / places));
-        expect_held(bound.loss, exact.loss, 0, cosine, alpha);
-        expect_held(bound.bias, exact.bias, 0, cosine, alpha);
+        expect_held(bound.loss, exact.loss, 0.95 * albedo::ggx_table_error * exact.loss, cosine, alpha);
+        expect_held(bound.bias, exact.bias, 0.95 * albedo::ggx_table_error, cosine, alpha);
       }
     }
   }
@@ -279,7 +306,7 @@ TEST(BoundedAlbedo, EBendsNoMoreBetweenTwoCosinesThanIsCounted) {
   for (const brdf::Visibility visibility : brdf::visibilities) {
     const albedo::Interpolant e(visibility);
     for (int a = 0; a < 120; ++a) {
-      const double sheen_roughness = std::pow(1e-3, a / 119.0);
+      const double sheen_roughness = std::pow(7e-6, a / 119.0);
       for (int c = 0; c <= 400; ++c) {
         const double cosine = std::pow(10.0, -4 * c / 400.0) / (1 + narrow_cosines);
         const double lower = e(cosine, sheen_roughness);

@@ -26,7 +26,7 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
    public:
     Sheen(const SheenAlbedo& albedo, const B& roughness) : albedo_(albedo), roughness_(roughness) {
       for (std::size_t i = 0; albedo.around == nullptr && i < B::lanes; ++i) {
-        OneAlbedo<Precision>::find(roughness.template lane<One>(i), roughnesses_[i]);
+        OneAlbedo<Precision>::find_roughnesses(roughness.template lane<One>(i), roughnesses_[i]);
       }
     }
 
@@ -68,18 +68,17 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
   class Ggx {
    public:
     Ggx(const BaseAlbedo& albedo, const B& alpha) : albedo_(albedo), alpha_(alpha) {
+      const number::BatchMask straddles = straddling();
       for (std::size_t i = 0; i < B::lanes; ++i) {
         const One a = alpha.template lane<One>(i);
-        if (!is_about(a) || straddles(a)) {
-          OneAlbedo<Precision>::find(a, alphas_[i]);
+        if (!is_about(a) || straddles.get(i)) {
+          OneAlbedo<Precision>::find_alphas(a, alphas_[i]);
         }
       }
     }
 
     brdf::LobeAlbedo<B> operator()(const B& cosine) const {
-      const number::Batch mirror(albedo::mirror_alpha);
-      const number::BatchMask straddling = (alpha_.lower() <= mirror) & ~(alpha_.upper() <= mirror);
-      if (albedo_.around == nullptr || xsimd::any(cosine.is_unbounded() | alpha_.is_unbounded() | straddling)) {
+      if (albedo_.around == nullptr || xsimd::any(cosine.is_unbounded() | alpha_.is_unbounded() | straddling())) {
         return each(
             [&](std::size_t i, const One& a) { return OneAlbedo<Precision>::ggx(albedo_, alphas_[i], cosine.template lane<One>(i), a); });
       }
@@ -88,7 +87,7 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
       const auto low = around.at(cosine.lower());
       const auto high = around.at(cosine.upper());
       const number::Batch share =
-          (alpha_.upper() - alpha_.lower()) / xsimd::max(alpha_.lower(), mirror) +
+          (alpha_.upper() - alpha_.lower()) / xsimd::max(alpha_.lower(), number::Batch(albedo::mirror_alpha)) +
           xsimd::abs(alpha_.center() - number::Batch(around.at.alpha())) / number::Batch(std::max(around.at.alpha(), albedo::mirror_alpha));
       const number::Batch changes = number::Batch(albedo::ggx_table_error) + number::Batch(changes_with_alpha) * share;
       Reading loss(cosine, at.loss, low.loss, high.loss);
@@ -122,8 +121,10 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
       return std::is_same_v<Precision, number::Highp> && albedo_.around != nullptr && alpha.is_bounded() &&
              albedo_.around->alpha.range().lower <= alpha.range().lower && alpha.range().upper <= albedo_.around->alpha.range().upper;
     }
-    static bool straddles(const One& alpha) {
-      return alpha.range().lower <= albedo::mirror_alpha && !(alpha.range().upper <= albedo::mirror_alpha);
+    /// See GgxRange.
+    number::BatchMask straddling() const {
+      const number::Batch mirror(albedo::mirror_alpha);
+      return (alpha_.lower() <= mirror) & ~(alpha_.upper() <= mirror);
     }
 
     /// @param read  of a lane and its alpha

@@ -97,7 +97,7 @@ struct GgxRange {
  private:
   // Loss and bias bend over a ratio of e of either argument.
   static constexpr double steps_in_e = 4;
-  static constexpr double wider_steps_in_e = 2;
+  static constexpr double wider_steps_in_e = 3;
   static constexpr double most_ratio = 130;  // that GgxAlphas has places for
 
   static const albedo::GgxAlpha& at_end(const GgxAlphas& alphas, End end) {

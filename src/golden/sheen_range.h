@@ -75,12 +75,12 @@ struct SheenRange {
 
   /// What E departs by, between two cosines as near as narrow_cosines, from what it is at either, for each square of their share: where it
   /// is less than 1 absolutely, else relatively (bounded_albedo_test.cpp).
-  static constexpr double e_bends = 6;
+  static constexpr double e_bends = 30;
 
  private:
-  /// Below it E changes with the roughness no more.
-  static constexpr double least_roughness = 1e-3;
-  /// It bends over a ratio of e of either argument.
+  /// Up to it E is nothing at any cosine from min_n_dot_v on.
+  static constexpr double least_roughness = 7e-6;
+  /// It bends over a ratio of e of either argument. SheenRoughnesses has room for steps of a third from least_roughness to 1.
   static constexpr double steps_in_e = 4;
 
   static const albedo::SheenRoughness& of_end(const SheenRoughnesses& roughnesses, End end) {

@@ -113,10 +113,10 @@ Number mix_error(double x, double y, const Number& rest, const Number& t) {
   constexpr double unit = epsilon<Precision> * (1 + 0x1p-20);  // and errors of errors
   const double of_x = (is_representable<Precision>(x) ? 1 : 2) * std::abs(x);
   const double of_y = (is_representable<Precision>(y) ? 1 : 2) * std::abs(y);
-  const double flushed = 4 * smallest_normal<Precision> * (1 + std::abs(x) + std::abs(y));
+  const double flushed = 4 * smallest_normal<Precision> * (1 + std::abs(x) + std::abs(y));  // of constants, products and sums
   const Number products = Number(2 * unit * std::abs(x)) * rest + Number(unit * std::abs(y)) * t;
   const Number difference = Number(2 * unit * std::abs(y - x)) * t;
-  return (Number(unit * of_x) * rest + Number(unit * of_y) * t) + (max(products, difference) + Number(flushed));
+  return (Number(unit * of_x) * rest + Number(unit * of_y) * t) + (max(products, difference) + Number(flushed) * (Number(1.0) + rest + t));
 }
 
 }  // namespace sheen::number
