@@ -159,6 +159,19 @@ double for_cosines(const B& cosine, double per_e, const Function& f) {
   return 0;
 }
 
+/// How far a parabola through what an albedo is at a range's ends and at its centre, wherever that lies, is beyond them in between, at the
+/// most. Of a centre near an end, which does not tell how it bends, half of what lies between the ends.
+template <class B>
+double bend_across(const B& y, double at_lower, double at_center, double at_upper) {
+  const double below = y.center() - y.range().lower;
+  const double above = y.range().upper - y.center();
+  const double width = below + above;
+  if (!(std::min(below, above) >= 0.1 * width && width > 0)) {
+    return 0.5 * std::abs(at_upper - at_lower);
+  }
+  return std::abs((at_upper - at_center) / above - (at_center - at_lower) / below) * width / 8;
+}
+
 /// An albedo over ranges of a cosine x and a narrow one of a roughness y: value and slope at the centre, all that the ranges reach, and
 /// what a shader that reads a table in highp is off. Over a narrow range of cosines an albedo bends one way at the most, so that what is
 /// left of the slope is found at the ends, each with each of the other's and with its centre, and it exceeds what is found there by no more
@@ -176,7 +189,8 @@ B read_albedo(const Function& f, const Turn& turn, bool may_turn, const Error& e
   }
   const double value = f(x.center(), End::Center);
   const double width = x.range().upper - x.range().lower;
-  const bool wide = width > wide_cosines * x.center();
+  // It bends where cosines are cut off, as they do in a wide range.
+  const bool wide = width > wide_cosines * x.center() || (x.range().lower < albedo::min_n_dot_v && x.range().upper > albedo::min_n_dot_v);
   // A centre near an end does not tell how the albedo bends, the middle does.
   const bool lopsided = x.center() - x.range().lower < 0.25 * width || x.range().upper - x.center() < 0.25 * width;
   const double middle = 0.5 * (x.range().lower + x.range().upper);
@@ -230,8 +244,7 @@ B read_albedo(const Function& f, const Turn& turn, bool may_turn, const Error& e
   if (!y.is_exact()) {
     const double at_lower = include_ends(End::Lower);
     const double at_upper = include_ends(End::Upper);
-    // What lies between three places of a parabola is beyond them by half of this at the most.
-    const double across_bend = 0.25 * std::abs(at_lower + at_upper - 2.0 * value);
+    const double across_bend = bend_across(y, at_lower, value, at_upper);
     highest += across_bend;
     lowest = std::max(0.0, lowest - across_bend);
     remainder += across_bend;

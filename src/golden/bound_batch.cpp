@@ -158,7 +158,11 @@ brdf::Rgb<Forms> shade_by_forms(const EightOf<Surface>& surfaces, Layers layers,
     number::FloatMask open = wide;
     if (forms_serve) {
       const Arriving<Forms> light = arriving(lighting.lights[i], forms.position);
-      sum = with(radiance, quick.light(light, false, no_lookup));
+      const auto part = quick.light(light, false, no_lookup);
+      if (!part.lit) {
+        continue;
+      }
+      sum = with(radiance, part);
       open = is_open(radiance, sum, light.irradiance);
     }
     if (xsimd::any(open & wide)) {

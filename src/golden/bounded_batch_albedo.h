@@ -154,6 +154,8 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     /// Of its values at the centre and at the ends.
     Reading(const B& of, const number::Batch& at_center, const number::Batch& at_lower, const number::Batch& at_upper)
         : cosine(of), value(at_center), wide(width() > number::Batch(wide_cosines) * of.center()) {
+      const number::Batch cut(albedo::min_n_dot_v);
+      wide = wide | ((of.lower() < cut) & (of.upper() > cut));
       slope = select((width() > number::Batch(0.0)) & ~wide, (at_upper - at_lower) / width(), number::Batch(0.0));
       lowest = xsimd::min(value, xsimd::min(at_lower, at_upper));
       highest = xsimd::max(value, xsimd::max(at_lower, at_upper));

@@ -35,6 +35,7 @@ template <class Real>
 struct LightPart {
   Real n_dot_l, n_dot_h, d, v, e_l, scale, coat_lobe;
   brdf::Rgb<Real> sheen, base, coat;
+  bool lit = false;  ///< whether it shines on any of what is shaded at once
 };
 
 /// That of a light that does not shine on it.
@@ -219,6 +220,7 @@ class CoatLayer {
     if (!any(lit)) {
       return;
     }
+    part.lit = true;
     const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
     const HalfAngles<Lobe> half(view_, light.direction);
     const Lobe lobe = lobe_.value(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h);
@@ -267,6 +269,7 @@ class BelowCoat {
     part.n_dot_l = dot(surface_.normal, light.direction);
     const auto lit = part.n_dot_l > Real(0);
     if (any(lit)) {
+      part.lit = true;
       add_lit(light, lit, wants_e_l, part, lookup);
     }
   }
