@@ -91,6 +91,7 @@ template <class Lobe>
 struct HalfAngles {
   Lobe n_dot_h, sin2_theta_h;
 
+  HalfAngles() = default;
   template <class Real>
   HalfAngles(const LobeView<Real>& lobe, const Vec3<Real>& l) : v_(As<Lobe>::vector(lobe.v)) {
     using brdf::inversesqrt;
@@ -212,17 +213,21 @@ class CoatLayer {
   /// What one light adds; see Shading::light.
   void add_light(const Arriving<Real>& light, LightPart<Real>& part) const {
     using brdf::any;
-    using brdf::max;
-    using brdf::min;
-    using brdf::select;
     const Real cosine = dot(view_.n, light.direction);
-    const auto lit = cosine > Real(0);
-    if (!any(lit)) {
+    if (!any(cosine > Real(0))) {
       return;
     }
     part.lit = true;
+    add_lit(light, cosine, HalfAngles<Lobe>(view_, light.direction), part);
+  }
+
+  /// The same of one that shines here. @param cosine  N.L
+  void add_lit(const Arriving<Real>& light, const Real& cosine, const HalfAngles<Lobe>& half, LightPart<Real>& part) const {
+    using brdf::max;
+    using brdf::min;
+    using brdf::select;
+    const auto lit = cosine > Real(0);
     const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
-    const HalfAngles<Lobe> half(view_, light.direction);
     const Lobe lobe = lobe_.value(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h);
     part.coat_lobe = times(As<Real>::number(lobe), factors_.coat_lobe);
     part.coat = light.irradiance * select(lit, weight_ * part.coat_lobe * n_dot_l, Real(0));
@@ -264,25 +269,27 @@ class BelowCoat {
   Color emission() const { return through_coat(times(surface_.emission, lighting_.factors.emission)); }
 
   /// What one light adds; see Shading::light.
-  void add_light(const Arriving<Real>& light, bool wants_e_l, LightPart<Real>& part, Color& lookup) const {
+  /// @param half  becomes what the light and the base's normal enclose, if it shines there
+  void add_light(const Arriving<Real>& light, bool wants_e_l, LightPart<Real>& part, Color& lookup, HalfAngles<Lobe>& half) const {
     using brdf::any;
     part.n_dot_l = dot(surface_.normal, light.direction);
     const auto lit = part.n_dot_l > Real(0);
     if (any(lit)) {
       part.lit = true;
-      add_lit(light, lit, wants_e_l, part, lookup);
+      half = HalfAngles<Lobe>(lobe_, light.direction);
+      add_lit(light, lit, wants_e_l, half, part, lookup);
     }
   }
 
  private:
   template <class Mask>
-  void add_lit(const Arriving<Real>& light, const Mask& lit, bool wants_e_l, LightPart<Real>& part, Color& lookup) const {
+  void add_lit(const Arriving<Real>& light, const Mask& lit, bool wants_e_l, const HalfAngles<Lobe>& half, LightPart<Real>& part,
+               Color& lookup) const {
     using brdf::max;
     using brdf::min;
     using brdf::select;
     const TermFactors& factors = lighting_.factors;
     const Real n_dot_l = min(max(part.n_dot_l, Real(0)), Real(1));
-    const HalfAngles<Lobe> half(lobe_, light.direction);
     part.n_dot_h = As<Real>::number(half.n_dot_h);
     const Color base = times(base_brdf(n_dot_l, half), factors.base);
     const Color irradiance = through_coat(light.irradiance);

@@ -68,9 +68,10 @@ BelowSum<Real> below_sum(Surface<Real> surface, const BelowSurface<Real>& at, La
   const bool has_signs = layers.sheen && lighting.sheen.scaling == brdf::AlbedoScaling::Literal;
   BelowSum<Real> out{below.emission(), below.emission()};
   brdf::Rgb<Real> no_lookup;
+  HalfAngles<Lobe> half;
   for (std::size_t i = 0; i < lighting.light_count && !is_hopeless(out.radiance); ++i) {
     LightPart<Real> part = no_light<Real>();
-    below.add_light(arriving(lighting.lights[i], surface.position), false, part, no_lookup);
+    below.add_light(arriving(lighting.lights[i], surface.position), false, part, no_lookup, half);
     out.radiance = (layers.sheen ? out.radiance + part.sheen : out.radiance) + part.base;
     if (has_signs) {
       out.size = out.size + part.sheen + absolute(part.base);

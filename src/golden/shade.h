@@ -43,7 +43,8 @@ class Shading {
 
   Shading(const Surface<Real>& surface, Layers layers, const Lighting& lighting)
       : coat_(layers.clearcoat ? std::optional<CoatLayer<Real, Lobe>>(std::in_place, surface, lighting) : std::nullopt),
-        below_(surface, layers, lighting, coat_weight()) {}
+        below_(surface, layers, lighting, coat_weight()),
+        one_normal_(layers.one_normal) {}
 
   Color emission() const { return below_.emission(); }
   ViewPart<Real> view() const { return {below_.n_dot_v(), below_.e_v(), coat_weight(), emission()}; }
@@ -57,9 +58,12 @@ class Shading {
   /// @param lookup     is added to; see Shaded
   LightPart<Real> light(const Arriving<Real>& light, bool wants_e_l, Color& lookup) const {
     LightPart<Real> part = no_light<Real>();
-    below_.add_light(light, wants_e_l, part, lookup);
-    if (coat_) {
+    HalfAngles<Lobe> half;
+    below_.add_light(light, wants_e_l, part, lookup, half);
+    if (coat_ && !one_normal_) {
       coat_->add_light(light, part);
+    } else if (coat_ && part.lit) {
+      coat_->add_lit(light, part.n_dot_l, half, part);
     }
     return part;
   }
@@ -69,6 +73,7 @@ class Shading {
 
   std::optional<CoatLayer<Real, Lobe>> coat_;
   BelowCoat<Real, Lobe> below_;
+  bool one_normal_;
 };
 
 /// The radiance after a light's part, in the shader's order of summation; layers that are not there add nothing.

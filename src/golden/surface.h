@@ -44,6 +44,7 @@ Surface<Real> spread(const Surface<double>& surface) {
 struct Layers {
   bool sheen = false;
   bool clearcoat = false;
+  bool one_normal = false;  ///< whether coat and base have the same, so that half angles are found once for both
 };
 
 }  // namespace sheen::golden

@@ -74,7 +74,7 @@ void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store
   Material& m = materials_[static_cast<std::size_t>(index)];
   m.source = &source;
   if (model_ != brdf::Model::Physical) {
-    m.layers = {source.sheen.enabled(), source.clearcoat.enabled()};
+    m.layers = {source.sheen.enabled(), source.clearcoat.enabled(), false};
   }
   const auto slot = [&](const scene::TextureInfo& info, ColorSpace space) {
     Slot s;
@@ -109,6 +109,7 @@ void SurfaceReader::read_material(const scene::Scene& scene, TextureStore& store
     m.clearcoat = slot(source.clearcoat.factor_texture, ColorSpace::Linear);
     m.clearcoat_roughness = slot(source.clearcoat.roughness_texture, ColorSpace::Linear);
     m.clearcoat_normal = slot(source.clearcoat.normal_texture, ColorSpace::Linear);
+    m.layers.one_normal = !m.normal.texture && !m.clearcoat_normal.texture;
   }
   compare_slots(m);
 }
