@@ -122,6 +122,36 @@ TEST(BoundAll, BatchesOfThePhysicalModelAgreeWithOneAtATime) {
   EXPECT_GT(c.bounded, 50);
 }
 
+TEST(BoundAll, ACoatOfTheBasesNormalIsShadedAsOneOfItsOwn) {
+  Comparison c;
+  for (Surface<Bound>& s : c.surfaces) {
+    s.coat_normal = s.normal;
+  }
+  std::vector<std::uint32_t> order(c.surfaces.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const albedo::Interpolant e(albedo::Visibility::Charlie);
+  Lighting lighting;
+  lighting.lights = c.lights.data();
+  lighting.light_count = c.lights.size();
+  lighting.albedo.interpolant = &e;
+  std::vector<brdf::Rgb<Bound>> two(c.surfaces.size());
+  std::vector<brdf::Rgb<Bound>> one(c.surfaces.size());
+  int bounded = 0;
+  for (const auto& shade_all : {bound_all_scalar, bound_all}) {
+    shade_all({c.surfaces.data(), order.data(), order.size(), {true, true, false}, Precision::Highp}, lighting, two.data());
+    shade_all({c.surfaces.data(), order.data(), order.size(), {true, true, true}, Precision::Highp}, lighting, one.data());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      ASSERT_EQ(one[i].g.is_bounded(), two[i].g.is_bounded());
+      if (one[i].g.is_bounded()) {
+        EXPECT_EQ(one[i].g.center(), two[i].g.center());
+        EXPECT_EQ(one[i].g.deviation(), two[i].g.deviation());
+        ++bounded;
+      }
+    }
+  }
+  EXPECT_GT(bounded, 200);
+}
+
 TEST(BoundAll, CurvesAboutOneRoughnessAgreeWithTheInterpolant) {
   Comparison c;
   const albedo::Interpolant e(albedo::Visibility::Charlie);
