@@ -115,13 +115,6 @@ struct Task {
 
 }  // namespace
 
-const albedo::Curve* CurveCache::at(const albedo::Interpolant* interpolant, double sheen_roughness) {
-  if (!curve_ || curve_->sheen_roughness() != sheen_roughness) {
-    curve_ = interpolant->at_roughness(sheen_roughness);
-  }
-  return &*curve_;
-}
-
 EnvironmentEstimate::EnvironmentEstimate(const Surface<double>& surface, Layers layers, const ImageLighting& lighting, std::uint64_t stream)
     : lighting_(&lighting),
       layers_(layers),

@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
+#include "golden/curve_cache.h"
 #include "golden/image_sum.h"
 #include "golden/sampling_goal.h"
 #include "golden/shade.h"
@@ -20,15 +20,6 @@ struct ImageLighting {
   Lighting lighting;
   const EnvironmentLight* light = nullptr;
   const DirectionPool* pool = nullptr;
-};
-
-/// E at the roughness asked for last, kept: most surfaces of a picture share it. One a thread.
-class CurveCache {
- public:
-  const albedo::Curve* at(const albedo::Interpolant* interpolant, double sheen_roughness);
-
- private:
-  std::optional<albedo::Curve> curve_;
 };
 
 /// Radiance toward the camera that an image sends by way of a surface, without emission: the integral itself, by directions drawn from the

@@ -145,7 +145,7 @@ TEST(EnvironmentShade, AWhiteImageIsUniformLight) {
   for (const double mu : {0.9, 0.4, 0.1}) {
     const Surface<double> surface = cloth_under_lacquer(mu);
     const Estimate ours = estimate(surface, {true, true}, lighting_with(interpolant), light, {0.0005, 1u << 22, 1});
-    const Color exact = shade_uniform(surface, {true, true}, lighting_with(interpolant), {2.0, 1.0, 0.5}).radiance;
+    const Color exact = UniformLight(lighting_with(interpolant), {2.0, 1.0, 0.5}).shade(surface, {true, true});
     EXPECT_NEAR(ours.mean.r, exact.r, 4.0 * ours.standard_error.r + 1e-6) << mu;
     EXPECT_NEAR(ours.mean.b, exact.b, 4.0 * ours.standard_error.b + 1e-6) << mu;
     EXPECT_LT(ours.standard_error.r, 0.001 * ours.mean.r);

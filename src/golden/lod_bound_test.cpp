@@ -6,6 +6,7 @@
 
 #include "golden/frame.h"
 #include "golden/test_scenes.h"
+#include "golden/uniform_light.h"
 
 namespace sheen::golden {
 namespace {
@@ -128,6 +129,92 @@ TEST(LodBound, HoldsWhenTheCoatsMapAndTheBasesArePickedTogether) {
     surface.coat_normal = reader.surface(hit, ray, level_in(clearcoat_normal_slot)).coat_normal;
     return surface;
   });
+}
+
+/// Two cloths, one seen through the other, each with textures of its own colour and its sheen's.
+scene::Scene cloth_over_cloth() {
+  scene::Scene s = tilted_cloth();
+  s.materials[0].base_color_texture = add_noise(s, 9, 0, 255, 128);
+  s.materials[0].sheen.color_texture = add_noise(s, 10, 0, 255, 128);
+  s.materials[0].alpha_mode = scene::AlphaMode::Blend;
+  s.materials[0].base_color_factor.a = 0.6;
+  s.instances.push_back(s.instances[0]);
+  s.instances[1].world_from_local = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -0.3)) * s.instances[0].world_from_local;
+  return s;
+}
+
+// Of each layer one texture at another level, under light from everywhere.
+TEST(LodBound, HoldsTheLevelsOfEachLayerUnderAnEnvironment) {
+  const scene::Scene s = cloth_over_cloth();
+  scene::Environment environment;
+  environment.uniform = glm::dvec3(1.0);
+  Settings settings = test::settings_for(image_size, image_size, true);
+  settings.environment = &environment;
+  const image::Image golden = render(s, settings);
+  const Frame frame(s, settings);
+  UniformLight light(frame.lighting(), {1.0, 1.0, 1.0});
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  double largest[2] = {0.0, 0.0};
+  Seen seen;
+  for (int y = 0; y < image_size; ++y) {
+    for (int x = 0; x < image_size; ++x) {
+      const Ray ray = frame.rays.through(x + 0.5, y + 0.5);
+      frame.tracer.trace(ray, false, seen);
+      if (seen.blended.size() != 2 || golden.at(x, y, golden.channel("excluded")) != 0.0F) {
+        continue;
+      }
+      for (std::size_t i = 0; i < 20; ++i) {
+        const std::size_t varied = i % 2;
+        double value = 0.0;
+        for (std::size_t layer = 0; layer < 2; ++layer) {
+          const Hit& hit = seen.blended[layer];
+          const std::size_t slot = i % 4 < 2 ? base_color_slot : sheen_color_slot;
+          const std::optional<LodInterval> range = frame.reader.lod_interval(hit, ray, slot);
+          const LodChoice lod =
+              layer == varied && range ? LodChoice{range->low + unit(generator) * (range->high - range->low), slot} : LodChoice{};
+          const Surface<double> surface = frame.reader.surface(hit, ray, lod);
+          const double a = frame.reader.opacity(hit, ray, lod);
+          const double direct = shade(surface, {true, false}, frame.lighting(), NoListener{}).radiance.g;
+          value = (light.shade(surface, {true, false}).g + direct) * a + value * (1.0 - a);
+        }
+        const double bound = golden.at(x, y, golden.channel("bound.G"));
+        const double off = std::abs(value - golden.at(x, y, 1));
+        ASSERT_LE(off, bound) << x << " " << y << " layer " << varied;
+        largest[varied] = std::max(largest[varied], off / bound);
+      }
+    }
+  }
+  EXPECT_GT(largest[0], 0.2);
+  EXPECT_GT(largest[1], 0.2);
+}
+
+// What a punctual light may be off is counted once, beside what the environment may.
+TEST(LodBound, OfAnEnvironmentAndALightAddUp) {
+  scene::Scene lit = cloth_over_cloth();
+  scene::Environment environment;
+  environment.uniform = glm::dvec3(0.5);
+  const auto bound_of = [](const scene::Scene& s, const scene::Environment* around) {
+    Settings settings = test::settings_for(image_size, image_size, true);
+    settings.environment = around;
+    return render(s, settings);
+  };
+  const image::Image light_alone = bound_of(lit, nullptr);
+  const image::Image both = bound_of(lit, &environment);
+  lit.lights.clear();
+  const image::Image environment_alone = bound_of(lit, &environment);
+  const int g = both.channel("bound.G");
+  int compared = 0;
+  for (int y = 0; y < image_size; ++y) {
+    for (int x = 0; x < image_size; ++x) {
+      if (both.at(x, y, 3) > 0.0F && both.at(x, y, both.channel("excluded")) == 0.0F) {
+        ++compared;
+        const double sum = static_cast<double>(light_alone.at(x, y, g)) + environment_alone.at(x, y, g);
+        EXPECT_NEAR(both.at(x, y, g), sum, 1e-4 * sum) << x << " " << y;
+      }
+    }
+  }
+  EXPECT_GT(compared, 100);
 }
 
 }  // namespace

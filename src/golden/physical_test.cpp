@@ -52,7 +52,7 @@ Surface<double> surface(double n_dot_v, double roughness, double metallic, Color
 }
 
 Color furnace(const Surface<double>& s) {
-  return shade_uniform(s, {}, physical(), {1.0, 1.0, 1.0}).radiance;
+  return UniformLight(physical(), {1.0, 1.0, 1.0}).shade(s, {});
 }
 
 /// The base's BRDF times N.L: a light of 1 lux.
@@ -75,7 +75,7 @@ TEST(Physical, AWhiteMetalReflectsAllOfUniformLight) {
     }
   }
   const Surface<double> rough = surface(0.9, 1.0, 1.0);
-  EXPECT_LT(shade_uniform(rough, {}, {}, {1.0, 1.0, 1.0}).radiance.g, 0.5) << "of which the ratified text loses more than half";
+  EXPECT_LT(UniformLight({}, {1.0, 1.0, 1.0}).shade(rough, {}).g, 0.5) << "of which the ratified text loses more than half";
 }
 
 TEST(Physical, AWhiteDielectricAndEveryWhiteMixReflectAllToo) {

@@ -20,6 +20,18 @@ struct Seen {
 
   void clear();
   bool empty() const { return !nearest && blended.empty(); }
+  /// How many surfaces make up what is seen.
+  std::uint32_t layers() const { return (nearest ? 1u : 0u) + static_cast<std::uint32_t>(blended.size()); }
+  /// Calls f with the hit on each of them, back to front.
+  template <class Function>
+  void for_layers(const Function& f) const {
+    if (nearest) {
+      f(*nearest);
+    }
+    for (const Hit& hit : blended) {
+      f(hit);
+    }
+  }
   /// Whether both meet the same sides of the same triangles.
   bool same_triangles(const Seen& other) const;
   /// Whether a triangle's side is among what is seen, or masks that were asked for.

@@ -10,7 +10,6 @@
 
 #include "golden/by_material.h"
 #include "golden/shade_all.h"
-#include "golden/uniform_light.h"
 
 namespace sheen::golden {
 Tile::Tile(const Frame& frame, const PixelBound* bound) : frame_(frame), bound_(bound) {
@@ -27,15 +26,27 @@ void Tile::add_layer(const Hit& hit, const Ray& ray, LodChoice lod) {
   materials_.push_back(placed.material_index);
 }
 
-void Tile::add_sample(const Seen& seen, const Ray& ray, LodChoice lod, const Hit* varied) {
+void Tile::add_layers(const Seen& seen, const Ray& ray) {
+  seen.for_layers([&](const Hit& hit) { add_layer(hit, ray, {}); });
+}
+
+void Tile::add_sample(const Seen& seen, const Ray& ray) {
   const auto first = static_cast<std::uint32_t>(layers_.size());
-  if (seen.nearest) {
-    add_layer(*seen.nearest, ray, varied == &*seen.nearest ? lod : LodChoice{});
-  }
-  for (const Hit& hit : seen.blended) {
-    add_layer(hit, ray, varied == &hit ? lod : LodChoice{});
-  }
+  add_layers(seen, ray);
   samples_.push_back({first, static_cast<std::uint32_t>(layers_.size()) - first, background(ray)});
+}
+
+// The layers that begin at `first`, of which one is read otherwise.
+void Tile::add_varied(std::uint32_t first, std::uint32_t count, std::uint32_t varied, const Hit& hit, const Ray& ray, LodChoice lod) {
+  samples_.push_back({static_cast<std::uint32_t>(layers_.size()), count, background(ray)});
+  for (std::uint32_t layer = 0; layer < count; ++layer) {
+    if (layer == varied) {
+      add_layer(hit, ray, lod);
+    } else {
+      const LayerRef same = layers_[first + layer];
+      layers_.push_back(same);
+    }
+  }
 }
 
 bool Tile::shows_background() const {
@@ -59,26 +70,24 @@ void Tile::add_sample_with_tie(Seen& seen, const Ray& ray) {
 
 // What is seen at the levels of detail that OpenGL ES allows each texture of each layer, for the light of an environment: bounded surfaces
 // hold what punctual lights bring.
-void Tile::add_levels(const Seen& seen, const Ray& ray) {
-  const auto add = [&](const Hit& hit) {
-    if (!frame_.reader.needs_lod(frame_.geometry.placed(hit.triangle).material_index)) {
-      return;
-    }
-    for (std::size_t slot = 0; slot < SurfaceReader::slot_count; ++slot) {
+// @param first  of the layers of `seen`, as they are without such a choice
+void Tile::add_levels(const Seen& seen, const Ray& ray, std::uint32_t first) {
+  const std::uint32_t count = seen.layers();
+  std::uint32_t layer = 0;
+  seen.for_layers([&](const Hit& hit) {
+    const bool needed = frame_.reader.needs_lod(frame_.geometry.placed(hit.triangle).material_index);
+    for (std::size_t slot = 0; needed && slot < SurfaceReader::slot_count; ++slot) {
       const std::vector<double> levels = frame_.reader.levels_to_try(hit, ray, slot);
       if (levels.empty()) {
         continue;
       }
       for (const double level : levels) {
-        add_sample(seen, ray, {level, slot}, &hit);
+        add_varied(first, count, layer, hit, ray, {level, slot});
       }
       lod_group_ends_.push_back(static_cast<std::uint32_t>(samples_.size()));
     }
-  };
-  if (seen.nearest) {
-    add(*seen.nearest);
-  }
-  std::for_each(seen.blended.begin(), seen.blended.end(), add);
+    ++layer;
+  });
 }
 
 void Tile::add_shifted() {
@@ -107,21 +116,21 @@ void Tile::add_carried_on() {
 
 // What is seen where the rounding of texture coordinates leads, if that is farther than the corners of the step. False where coordinates
 // may lie so far off that corners show but some of the texels between them: a texture without mipmaps seen from far.
-bool Tile::add_nudged() {
+bool Tile::add_nudged(const Plan& plan) {
   const Look& centre = looks_[0];
-  const auto add = [&](const Hit& hit) {
+  const Sample base = samples_[plan.centre];
+  bool sampled = true;
+  std::uint32_t layer = 0;
+  centre.seen.for_layers([&](const Hit& hit) {
     const TextureReach reach = frame_.reader.texture_reach(hit, centre.ray);
     if (reach.beyond_the_step) {
       for (const glm::dvec2& nudge : nudges) {
-        add_sample(centre.seen, centre.ray, {std::nullopt, 0, nudge}, &hit);
+        add_varied(base.first, base.count, layer, hit, centre.ray, {std::nullopt, 0, nudge});
       }
     }
-    return reach.texels <= most_texels_of_corners;
-  };
-  bool sampled = !centre.seen.nearest || add(*centre.seen.nearest);
-  for (const Hit& hit : centre.seen.blended) {
-    sampled = add(hit) && sampled;
-  }
+    sampled = sampled && reach.texels <= most_texels_of_corners;
+    ++layer;
+  });
   return sampled;
 }
 
@@ -153,7 +162,7 @@ Tile::Plan Tile::plan(int x, int y) {
     add_sample_with_tie(centre.seen, centre.ray);
     add_shifted();
     add_carried_on();
-    sampled = add_nudged();
+    sampled = add_nudged(plan);
   } else {
     add_sample(centre.seen, centre.ray);
   }
@@ -162,39 +171,38 @@ Tile::Plan Tile::plan(int x, int y) {
     plan.excluded = mask_uncertain(step) ? Exclusion::Mask : sampled ? Exclusion::None : Exclusion::Texels;
   }
   for (std::size_t k = 0; k < looks_.size() && has_environment(); ++k) {
-    if (!seen_before(k)) {
-      add_levels(extended(looks_[k].seen, centre.ray), centre.ray);
+    if (k == 0) {
+      add_levels(centre.seen, centre.ray, samples_[plan.centre].first);
+    } else if (!seen_before(k)) {
+      const Seen carried_on = extended(looks_[k].seen, centre.ray);
+      const auto first = static_cast<std::uint32_t>(layers_.size());
+      add_layers(carried_on, centre.ray);
+      add_levels(carried_on, centre.ray, first);
     }
   }
   plan.last_group = static_cast<std::uint32_t>(lod_group_ends_.size());
   return plan;
 }
 
-void Tile::shade_surfaces() {
-  shaded_.resize(surfaces_.size());
-  direct_.resize(bounded_ ? surfaces_.size() : 0);
+// By punctual lights: what other samples than the centres show of those, the bounds know.
+void Tile::shade_centres(const std::vector<Plan>& plans) {
+  const brdf::Rgb<double> black{0, 0, 0};
+  shaded_.assign(surfaces_.size(), {black, black, 0.0});
+  std::vector<std::uint32_t> surfaces;
+  std::vector<int> materials;
+  for_centres(plans, [&](std::uint32_t surface) {
+    surfaces.push_back(surface);
+    materials.push_back(materials_[surface]);
+  });
   const Lighting lighting = frame_.lighting();
-  by_material(materials_, [&](const std::uint32_t* order, std::size_t count, int material) {
-    shade_all(surfaces_.data(), order, count, frame_.reader.layers(material), lighting, shaded_.data());
-    for (std::size_t i = 0; bounded_ && i < count; ++i) {
-      direct_[order[i]] = shaded_[order[i]].radiance;
-    }
-    if (frame_.settings.environment != nullptr && !frame_.environment) {
-      add_uniform_light(order, count, lighting);
-    }
+  by_material(materials, [&](const std::uint32_t* order, std::size_t count, int material) {
+    std::vector<std::uint32_t> of(count);
+    std::transform(order, order + count, of.begin(), [&](std::uint32_t i) { return surfaces[i]; });
+    shade_all(surfaces_.data(), of.data(), count, frame_.reader.layers(material), lighting, shaded_.data());
   });
 }
 
-void Tile::add_uniform_light(const std::uint32_t* order, std::size_t count, const Lighting& lighting) {
-  const Layers layers = frame_.reader.layers(materials_[order[0]]);
-  const glm::dvec3 uniform = frame_.settings.environment->uniform;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Shaded<double> more = shade_uniform(surfaces_[order[i]], layers, lighting, {uniform.x, uniform.y, uniform.z});
-    shaded_[order[i]].radiance = shaded_[order[i]].radiance + more.radiance;
-  }
-}
-
-// rgb = a c + (1 - a) dst over black, coverage likewise. Refined: with the full estimate of the light of an image.
+// rgb = a c + (1 - a) dst over black, coverage likewise. Refined: with the full estimate of an environment's light.
 Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
   Composed out;
   if (shows_background()) {
@@ -204,16 +212,14 @@ Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
   for (std::uint32_t i = sample.first; i < sample.first + sample.count; ++i) {
     const Shaded<double>& s = shaded_[layers_[i].surface];
     const double a = layers_[i].opacity;
-    glm::dvec3 from_image(0.0);
-    if (!coarse_.empty()) {
+    glm::dvec3 from_environment(0.0);
+    if (has_environment()) {
       const std::uint32_t surface = layers_[i].surface;
-      from_image = dvec3(coarse_[surface]) + (refined ? dvec3(refinement_[surface]) : glm::dvec3(0.0));
+      from_environment = dvec3(coarse_[surface]) + (refined ? dvec3(refinement_[surface]) : glm::dvec3(0.0));
       out.standard_error = dvec3(standard_error_[surface]) * a + out.standard_error * (1.0 - a);
     }
-    out.radiance = (dvec3(s.radiance) + from_image) * a + out.radiance * (1.0 - a);
-    if (bounded_) {
-      out.direct = dvec3(direct_[layers_[i].surface]) * a + out.direct * (1.0 - a);
-    }
+    out.radiance = (dvec3(s.radiance) + from_environment) * a + out.radiance * (1.0 - a);
+    out.direct = dvec3(s.radiance) * a + out.direct * (1.0 - a);
     out.lookup = dvec3(s.lookup) * a + out.lookup * (1.0 - a);
     out.coverage = a + out.coverage * (1.0 - a);
     out.mirrored = out.mirrored || s.mirrored > 0.0;
@@ -223,29 +229,28 @@ Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
 
 Pixel Tile::finish(const Plan& plan) const {
   const Composed centre = compose(samples_[plan.centre]);
-  const auto vector_of = [](const Composed& c) { return glm::dvec4(c.radiance, c.coverage); };
-  const glm::dvec4 here = vector_of(centre);
+  const auto from_environment = [](const Composed& c) { return c.radiance - c.direct; };
+  const glm::dvec3 here = from_environment(centre);
   const auto largest_change = [&](std::uint32_t begin, std::uint32_t end) {
-    glm::dvec4 largest(0.0);
+    glm::dvec3 largest(0.0);
     for (std::uint32_t i = begin; i < end; ++i) {
-      largest = glm::max(largest, glm::abs(vector_of(compose(samples_[i])) - here));
+      largest = glm::max(largest, glm::abs(from_environment(compose(samples_[i])) - here));
     }
     return largest;
   };
-  const glm::dvec4 shift = largest_change(plan.centre + 1, plan.shifted_end);
+  glm::dvec3 change = largest_change(plan.centre + 1, plan.shifted_end);
   // What may come between two levels that were tried: beyond the nearer one by half of what they differ.
   const auto between = [&](std::uint32_t begin, std::uint32_t end) {
-    glm::dvec4 largest(0.0);
+    glm::dvec3 largest(0.0);
     for (std::uint32_t i = begin + 1; i < end; ++i) {
-      largest = glm::max(largest, 0.5 * glm::abs(vector_of(compose(samples_[i])) - vector_of(compose(samples_[i - 1]))));
+      largest = glm::max(largest, 0.5 * glm::abs(from_environment(compose(samples_[i])) - from_environment(compose(samples_[i - 1]))));
     }
     return largest;
   };
   // Each texture's level is the driver's to choose, whatever the others': their largest changes add.
-  glm::dvec4 lod(0.0);
   std::uint32_t begin = plan.shifted_end;
   for (std::uint32_t group = plan.first_group; group < plan.last_group; ++group) {
-    lod += largest_change(begin, lod_group_ends_[group]) + between(begin, lod_group_ends_[group]);
+    change += largest_change(begin, lod_group_ends_[group]) + between(begin, lod_group_ends_[group]);
     begin = lod_group_ends_[group];
   }
   Pixel pixel;
@@ -254,7 +259,7 @@ Pixel Tile::finish(const Plan& plan) const {
   pixel.coverage = centre.coverage;
   pixel.standard_error = full.standard_error;
   const Enclosed bounded = bounded_ ? enclosed(plan, centre.direct) : Enclosed{};
-  const glm::dvec4 open = bounded.deviation + shift + lod;
+  const glm::dvec4 open = bounded.deviation + glm::dvec4(change, 0.0);
   pixel.bound = glm::dvec3(open) + centre.lookup + standard_errors * full.standard_error;
   pixel.coverage_bound = shows_background() ? 0.0 : open.w;
   pixel.excluded = plan.excluded;
@@ -282,12 +287,12 @@ std::vector<Pixel> Tile::render(int x0, int y0, int x1, int y1) {
       plans.push_back(plan(x, y));
     }
   }
-  shade_surfaces();
+  shade_centres(plans);
   if (bounded_) {
     bounded_->shade();
   }
-  if (frame_.environment) {
-    add_image_light(plans);
+  if (has_environment()) {
+    add_environment_light(plans);
   }
   std::vector<Pixel> pixels;
   pixels.reserve(plans.size());

@@ -69,7 +69,7 @@ class Tile {
   };
   struct Composed {
     glm::dvec3 radiance{0.0}, lookup{0.0}, standard_error{0.0};
-    glm::dvec3 direct{0.0};  // with bounds, what of the radiance is no environment's
+    glm::dvec3 direct{0.0};  // what of the radiance is no environment's
     double coverage = 0.0;
     bool mirrored = false;
   };
@@ -84,10 +84,12 @@ class Tile {
   Enclosed enclosed(const Plan& plan, const glm::dvec3& direct) const;
   void add_shifted();
   void add_carried_on();
-  bool add_nudged();
+  bool add_nudged(const Plan& plan);
   bool seen_before(std::size_t look) const;
   bool mask_uncertain(double step) const;
-  void add_sample(const Seen& seen, const Ray& ray, LodChoice lod = {}, const Hit* varied = nullptr);
+  void add_sample(const Seen& seen, const Ray& ray);
+  void add_varied(std::uint32_t first, std::uint32_t count, std::uint32_t varied, const Hit& hit, const Ray& ray, LodChoice lod);
+  void add_layers(const Seen& seen, const Ray& ray);
   void add_sample_with_tie(Seen& seen, const Ray& ray);
   void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
   bool interrupted(const Ray& ray, const Seen& seen, std::optional<double> depths = std::nullopt) const;
@@ -95,9 +97,12 @@ class Tile {
   bool has_environment() const { return frame_.settings.environment != nullptr; }
   bool shows_background() const;
   glm::dvec3 background(const Ray& ray) const;
-  void add_levels(const Seen& seen, const Ray& ray);
-  void shade_surfaces();
-  void add_uniform_light(const std::uint32_t* order, std::size_t count, const Lighting& lighting);
+  void add_levels(const Seen& seen, const Ray& ray, std::uint32_t first);
+  template <class Function>
+  void for_centres(const std::vector<Plan>& plans, const Function& f) const;
+  void shade_centres(const std::vector<Plan>& plans);
+  void add_environment_light(const std::vector<Plan>& plans);
+  void add_uniform_light(const std::vector<Plan>& plans);
   void add_image_light(const std::vector<Plan>& plans);
   void add_coarse_light(const std::vector<Plan>& plans, const ImageLighting& lighting);
   double relative_error(const Sample& sample) const;
@@ -118,15 +123,25 @@ class Tile {
   CurveCache curves_;
   std::deque<Look> looks_{looks_around};  // and through near misses that are seen
   std::vector<Surface<double>> surfaces_;
-  std::vector<int> materials_;  // of surfaces_
-  std::vector<Shaded<double>> shaded_;
-  std::vector<brdf::Rgb<double>> direct_;  // with bounds, of surfaces_: radiance without an environment's
-  // Under an image, of surfaces_: with bounds, from few directions, drawn alike for all surfaces of a pixel, so that their differences tell
-  // what a moved sample changes; and, of those at pixel centres, what is left to the full estimate.
+  std::vector<int> materials_;          // of surfaces_
+  std::vector<Shaded<double>> shaded_;  // of surfaces_, those at pixel centres: what punctual lights and emission bring
+  // Of an environment's light on surfaces_: with bounds, by few nodes or from few directions, the same for all surfaces of a pixel, so that
+  // their differences tell what a moved sample changes; and, of those at pixel centres, what is left to the full estimate.
   std::vector<brdf::Rgb<double>> coarse_, refinement_, standard_error_;
   std::vector<LayerRef> layers_;
   std::vector<Sample> samples_;
   std::vector<std::uint32_t> lod_group_ends_;  // into samples_
 };
+
+/// Calls f with every surface that a pixel's centre shows.
+template <class Function>
+void Tile::for_centres(const std::vector<Plan>& plans, const Function& f) const {
+  for (const Plan& plan : plans) {
+    const Sample& centre = samples_[plan.centre];
+    for (std::uint32_t layer = 0; layer < centre.count; ++layer) {
+      f(layers_[centre.first + layer].surface);
+    }
+  }
+}
 
 }  // namespace sheen::golden

@@ -1,11 +1,36 @@
-// The light of an image in a tile: a full estimate at pixel centres, a coarse one at every sample that the bound compares them with.
+// An environment's light in a tile: a full estimate at pixel centres, a coarse one at every sample that the bound compares them with.
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
 #include "golden/tile.h"
+#include "golden/uniform_light.h"
 
 namespace sheen::golden {
+
+void Tile::add_environment_light(const std::vector<Plan>& plans) {
+  const brdf::Rgb<double> zero{0, 0, 0};
+  coarse_.assign(surfaces_.size(), zero);
+  refinement_.assign(surfaces_.size(), zero);
+  standard_error_.assign(surfaces_.size(), zero);
+  if (frame_.environment) {
+    add_image_light(plans);
+  } else {
+    add_uniform_light(plans);
+  }
+}
+
+void Tile::add_uniform_light(const std::vector<Plan>& plans) {
+  const glm::dvec3& radiance = frame_.settings.environment->uniform;
+  UniformLight light(frame_.lighting(), {radiance.x, radiance.y, radiance.z});
+  const auto shade = [&](std::uint32_t surface, albedo::Effort effort) {
+    return light.shade(surfaces_[surface], frame_.reader.layers(materials_[surface]), effort);
+  };
+  for (std::uint32_t surface = 0; frame_.settings.bounds && surface < surfaces_.size(); ++surface) {
+    coarse_[surface] = shade(surface, albedo::Effort::Fast);
+  }
+  for_centres(plans, [&](std::uint32_t surface) { refinement_[surface] = shade(surface, albedo::Effort::Full) + coarse_[surface] * -1.0; });
+}
 
 // Each pixel and layer has a stream of its own, wherever the tiles lie and whoever draws them.
 std::uint64_t Tile::stream(const Plan& plan, std::uint32_t layer) {
@@ -13,13 +38,17 @@ std::uint64_t Tile::stream(const Plan& plan, std::uint32_t layer) {
 }
 
 void Tile::add_coarse_light(const std::vector<Plan>& plans, const ImageLighting& lighting) {
+  std::vector<bool> lit(surfaces_.size());  // samples of a pixel share surfaces
   for (std::size_t p = 0; p < plans.size(); ++p) {
     const std::uint32_t end = p + 1 < plans.size() ? plans[p + 1].centre : static_cast<std::uint32_t>(samples_.size());
     for (std::uint32_t s = plans[p].centre; s < end; ++s) {
       for (std::uint32_t layer = 0; layer < samples_[s].count; ++layer) {
         const std::uint32_t surface = layers_[samples_[s].first + layer].surface;
-        coarse_[surface] =
-            coarse_environment(surfaces_[surface], frame_.reader.layers(materials_[surface]), lighting, stream(plans[p], layer), curves_);
+        if (!lit[surface]) {
+          lit[surface] = true;
+          coarse_[surface] =
+              coarse_environment(surfaces_[surface], frame_.reader.layers(materials_[surface]), lighting, stream(plans[p], layer), curves_);
+        }
       }
     }
   }
@@ -41,10 +70,6 @@ double Tile::relative_error(const Sample& sample) const {
 // Directions are doubled wherever the error is still above the goal, until that is so at no more than one pixel in a hundred of the tile:
 // then the whole picture's 99th percentile meets it. Decided tile by tile, so that it does not depend on the order of tiles.
 void Tile::add_image_light(const std::vector<Plan>& plans) {
-  const brdf::Rgb<double> zero{0, 0, 0};
-  coarse_.assign(surfaces_.size(), zero);
-  refinement_.assign(surfaces_.size(), zero);
-  standard_error_.assign(surfaces_.size(), zero);
   const ImageLighting lighting{frame_.lighting(), &*frame_.environment, &*frame_.directions};
   if (frame_.settings.bounds) {
     add_coarse_light(plans, lighting);

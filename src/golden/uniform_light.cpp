@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <vector>
 
-#include "albedo/quadrature.h"
+#include "albedo/ggx_albedo.h"
 #include "brdf/fresnel.h"
 
 namespace sheen::golden {
@@ -21,26 +22,26 @@ namespace {
 //
 // Without the Fresnel weight the azimuth has closed forms: the integrals of 1, 1/(d + B sin^2) and its square over a turn are 2 pi,
 // 2 pi / sqrt(d (d+B)) and 2 pi (d + B/2) / (d (d+B))^(3/2).
-const albedo::Rule& tanh_sinh() {
-  static const albedo::Rule rule = albedo::make_rule(48, 3.4, 1);
-  return rule;
-}
-
 struct AzimuthNode {
   double sin2, weight;  // sin^2(phi/2); of the integral over a whole turn
 };
 
-const std::vector<AzimuthNode>& azimuth_nodes() {
-  static const std::vector<AzimuthNode> nodes = [] {
-    std::vector<AzimuthNode> made;
-    const albedo::Rule& rule = tanh_sinh();
-    for (std::size_t i = 0; i < rule.left.size(); ++i) {
-      const double sine = std::sin(0.5 * brdf::pi * rule.left[i]);
-      made.push_back({sine * sine, 2 * brdf::pi * rule.weight[i]});
+struct Nodes {
+  albedo::Rule cosine;
+  std::vector<AzimuthNode> azimuth;
+
+  Nodes(int cosines, int azimuths, double reach) : cosine(albedo::make_rule(cosines, reach, 1)) {
+    const albedo::Rule turn = albedo::make_rule(azimuths, reach, 1);
+    for (std::size_t i = 0; i < turn.left.size(); ++i) {
+      const double sine = std::sin(0.5 * brdf::pi * turn.left[i]);
+      azimuth.push_back({sine * sine, 2 * brdf::pi * turn.weight[i]});
     }
-    return made;
-  }();
-  return nodes;
+  }
+};
+
+const Nodes& nodes_for(albedo::Effort effort) {
+  static const Nodes full(48, 48, 3.4), fast(24, 16, 3.0);
+  return effort == albedo::Effort::Full ? full : fast;
 }
 
 struct Cosine {
@@ -48,7 +49,7 @@ struct Cosine {
 };
 
 // What the integrands are at one cosine, azimuth integrated, without s.
-BaseIntegrals around(double alpha, double mu, const Cosine& l) {
+BaseIntegrals around(const std::vector<AzimuthNode>& azimuth, double alpha, double mu, const Cosine& l) {
   const double sine_product = std::sqrt((1 - mu) * (1 + mu) * (1 - l.lambda) * (1 + l.lambda));
   const double a = (mu + l.lambda) * (mu + l.lambda) / (1 + mu * l.lambda + sine_product);
   const double b = 2 * sine_product;
@@ -65,7 +66,7 @@ BaseIntegrals around(double alpha, double mu, const Cosine& l) {
   // The weight at the peak is taken out, so that nodes meet what is left of it alone.
   const double at_peak = brdf::schlick_weight(std::min(std::sqrt(0.5 * a), 1.0));
   double rest = 0;
-  for (const AzimuthNode& node : azimuth_nodes()) {
+  for (const AzimuthNode& node : azimuth) {
     const double one_plus_vl = a + b * node.sin2;
     const double w = brdf::schlick_weight(std::min(std::sqrt(0.5 * one_plus_vl), 1.0));
     const double ratio = one_plus_vl / (d + b * node.sin2);
@@ -79,8 +80,10 @@ BaseIntegrals around(double alpha, double mu, const Cosine& l) {
 
 }  // namespace
 
-BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<double(double)>& scale, const std::vector<double>& kinks) {
-  const albedo::Rule& rule = tanh_sinh();
+BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<double(double)>& scale, const std::vector<double>& kinks,
+                             albedo::Effort effort) {
+  const Nodes& nodes = nodes_for(effort);
+  const albedo::Rule& rule = nodes.cosine;
   const double mu = n_dot_v;
   std::vector<double> breaks{0.0, mu, 1.0};
   breaks.insert(breaks.end(), kinks.begin(), kinks.end());
@@ -110,7 +113,7 @@ BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<d
       if (!(l.lambda > 0)) {
         continue;
       }
-      const BaseIntegrals f = around(alpha, mu, l);
+      const BaseIntegrals f = around(nodes.azimuth, alpha, mu, l);
       const double weight = rule.weight[i] * length * scale(l.lambda);
       sum.diffuse += weight * f.diffuse;
       sum.diffuse_w += weight * f.diffuse_w;
@@ -158,39 +161,58 @@ std::vector<double> scale_kinks(const SheenLayer<double>& sheen, double c) {
 
 }  // namespace
 
-Shaded<double> shade_uniform(const Surface<double>& surface, Layers layers, const Lighting& lighting, const Color& radiance) {
-  const TermFactors& factors = lighting.factors;
+UniformLight::UniformLight(const Lighting& lighting, const Color& radiance) : lighting_(lighting), radiance_(radiance) {}
+
+template <class Find>
+const BaseIntegrals& UniformLight::found(Of of, const std::array<double, 4>& numbers, albedo::Effort effort, const Find& find) {
+  Key key{static_cast<std::uint64_t>(of), static_cast<std::uint64_t>(effort)};
+  std::transform(numbers.begin(), numbers.end(), key.begin() + 2, [](double x) { return std::bit_cast<std::uint64_t>(x); });
+  const auto place = found_.lower_bound(key);
+  return place != found_.end() && place->first == key ? place->second : found_.emplace_hint(place, key, find())->second;
+}
+
+Color UniformLight::shade(const Surface<double>& surface, Layers layers, albedo::Effort effort) {
+  const TermFactors& factors = lighting_.factors;
   const LobeView<double> lobe(surface.normal, surface.view);
   const LobeView<double> coat(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view);
   const double k = layers.clearcoat ? brdf::clearcoat_weight(surface.clearcoat, coat.n_dot_v) * factors.coat_weight : 0.0;
-  const Color light = radiance * surface.occlusion;
-  const auto one = [](double) { return 1.0; };
+  const Color light = radiance_ * surface.occlusion;
+  const double alpha = surface.base.alpha;
+  const auto evenly = [&](double s) {
+    const auto one = [](double) { return 1.0; };
+    const BaseIntegrals& all =
+        found(Of::Base, {alpha, lobe.n_dot_v, 0, 0}, effort, [&] { return base_integrals(alpha, lobe.n_dot_v, one, {}, effort); });
+    return BaseIntegrals{s * all.diffuse, s * all.diffuse_w, s * all.specular, s * all.specular_w};
+  };
 
   Color sheen_light{0, 0, 0};
   BaseIntegrals base;
   if (layers.sheen) {
-    const SheenLayer<double> sheen(surface, lobe, lighting);
+    lighting_.albedo.curve = curves_.at(lighting_.albedo.interpolant, surface.sheen_roughness);
+    const SheenLayer<double> sheen(surface, lobe, lighting_);
     sheen_light = surface.sheen_color * (sheen.e_v() * factors.distribution * factors.visibility);
     if (sheen.two_directions()) {
-      base = base_integrals(
-          surface.base.alpha, lobe.n_dot_v, [&](double n_dot_l) { return sheen.scale(sheen.e_l(true, n_dot_l)); },
-          scale_kinks(sheen, brdf::max3(surface.sheen_color)));
+      const double c = brdf::max3(surface.sheen_color);
+      const auto scale = [&](double n_dot_l) { return sheen.scale(sheen.e_l(true, n_dot_l)); };
+      base = found(Of::BaseUnderSheen, {alpha, lobe.n_dot_v, c, surface.sheen_roughness}, effort,
+                   [&] { return base_integrals(alpha, lobe.n_dot_v, scale, scale_kinks(sheen, c), effort); });
     } else {
-      const double s = sheen.scale(0.0);
-      base = base_integrals(surface.base.alpha, lobe.n_dot_v, [s](double) { return s; });
+      base = evenly(sheen.scale(0.0));
     }
   } else {
-    base = base_integrals(surface.base.alpha, lobe.n_dot_v, one);
+    base = evenly(1.0);
   }
   const Color reflected =
-      lighting.base_albedo.interpolant != nullptr
-          ? PhysicalLayer<double>(surface.base, lobe.n_dot_v, lighting.base_albedo).base.light(base.specular, base.specular_w)
+      lighting_.base_albedo.interpolant != nullptr
+          ? PhysicalLayer<double>(surface.base, lobe.n_dot_v, lighting_.base_albedo).base.light(base.specular, base.specular_w)
           : base_light(surface.base, base);
-  const Color under = (reflected * factors.base) * light * (1 - k);
-  const Color cloth = sheen_light * light * (1 - k);
-  const double coat_light = layers.clearcoat ? k * factors.coat_lobe * base_integrals(surface.coat_alpha, coat.n_dot_v, one).specular : 0.0;
-  const Color zero{0, 0, 0};
-  return {under + cloth + light * coat_light, zero, 0.0};
+  Color sum = (reflected * factors.base + sheen_light) * light * (1 - k);
+  if (layers.clearcoat) {
+    const auto reflected_by_coat = [&] { return BaseIntegrals{0, 0, 1 - albedo::ggx_loss(coat.n_dot_v, surface.coat_alpha), 0}; };
+    const BaseIntegrals& in = found(Of::Coat, {surface.coat_alpha, coat.n_dot_v, 0, 0}, albedo::Effort::Full, reflected_by_coat);
+    sum = sum + light * (k * factors.coat_lobe * in.specular);
+  }
+  return sum;
 }
 
 }  // namespace sheen::golden

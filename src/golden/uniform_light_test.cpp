@@ -1,7 +1,10 @@
 #include "golden/uniform_light.h"
 
+#include <array>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -87,6 +90,39 @@ TEST(BaseIntegrals, HaveConverged) {
   }
 }
 
+// What a bound asks of Fast: differences of neighbours, in roughness and in angle, as Full has them.
+TEST(BaseIntegrals, FewNodesTellDifferences) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const albedo::Interpolant interpolant(albedo::Visibility::Charlie);
+  for (int i = 0; i < 200; ++i) {
+    const double alpha = std::pow(10.0, -3.0 * unit(random));
+    const double mu = unit(random) < 0.5 ? unit(random) : std::pow(10.0, -3.0 * unit(random));
+    const albedo::Curve e = interpolant.at_roughness(0.3 + 0.7 * unit(random));
+    const double c = 0.5 * unit(random);
+    const auto four = [&](double a, double m, albedo::Effort effort) {
+      const auto s = [&](double n_dot_l) { return 1.0 - c * std::max(e(m), e(n_dot_l)); };
+      const BaseIntegrals in = base_integrals(a, m, s, {0.5}, effort);
+      return std::array{in.diffuse, in.diffuse_w, in.specular, in.specular_w};
+    };
+    const double step = 0.01 * unit(random);
+    const auto exact = four(alpha, mu, albedo::Effort::Full);
+    const auto rough = four(alpha, mu, albedo::Effort::Fast);
+    const std::pair<double, double> neighbours[] = {{alpha * (1.0 - step), mu}, {alpha, mu * (1.0 - step)}};
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+      EXPECT_NEAR(rough[k], exact[k], 2e-4) << "integral " << k << " alpha " << alpha << " n_dot_v " << mu;
+    }
+    for (const auto& [a, m] : neighbours) {
+      const auto exact_there = four(a, m, albedo::Effort::Full);
+      const auto rough_there = four(a, m, albedo::Effort::Fast);
+      for (std::size_t k = 0; k < exact.size(); ++k) {
+        EXPECT_NEAR(rough_there[k] - rough[k], exact_there[k] - exact[k], 3e-3 * step)
+            << "integral " << k << " alpha " << alpha << " n_dot_v " << mu << " step " << step;
+      }
+    }
+  }
+}
+
 Surface<double> white_lambert(double n_dot_v) {
   Surface<double> s{};
   s.normal = s.coat_normal = {0.0, 0.0, 1.0};
@@ -111,7 +147,7 @@ TEST(UniformLight, WhiteSheenOverWhiteLambertGivesTheLawOfItsScaling) {
           Lighting lighting;
           lighting.sheen = {visibility, scaling};
           lighting.albedo.interpolant = &interpolant;
-          return shade_uniform(surface, {true, false}, lighting, {1.0, 1.0, 1.0}).radiance.g;
+          return UniformLight(lighting, {1.0, 1.0, 1.0}).shade(surface, {true, false}).g;
         };
         const double tolerance = 1e-6 * std::max(1.0, e);
         EXPECT_NEAR(furnace(brdf::AlbedoScaling::View), std::max(1.0, e), tolerance) << r << ' ' << mu;
@@ -132,17 +168,55 @@ TEST(UniformLight, WhiteSheenOverWhiteLambertGivesTheLawOfItsScaling) {
   }
 }
 
+// Each of the numbers that integrals depend on, changed alone; and all once more.
+TEST(UniformLight, KeptIntegralsAreThoseOfTheSurface) {
+  const albedo::Interpolant interpolant(albedo::Visibility::Charlie);
+  Lighting lighting;
+  lighting.sheen = {albedo::Visibility::Charlie, brdf::AlbedoScaling::Full};
+  lighting.albedo.interpolant = &interpolant;
+  std::vector<Surface<double>> surfaces;
+  for (std::size_t changed = 0; changed < 7; ++changed) {
+    const auto one_of = [&](std::size_t k, double usual, double other) { return k == changed ? other : usual; };
+    Surface<double> s = white_lambert(one_of(0, 0.4, 0.41));
+    s.base.alpha = one_of(1, 0.3, 0.31);
+    s.base.color.g = one_of(2, 0.5, 0.6);
+    s.base.specular = 1.0;
+    s.sheen_color = {one_of(3, 0.7, 0.71), 0.2, 0.2};
+    s.sheen_roughness = one_of(4, 0.5, 0.51);
+    s.clearcoat = 1.0;
+    s.coat_alpha = one_of(5, 0.2, 0.21);
+    if (changed == 6) {
+      s.coat_normal = {0.0, 0.6, 0.8};
+    }
+    surfaces.push_back(s);
+  }
+  UniformLight kept(lighting, {1.0, 2.0, 3.0});
+  for (int turn = 0; turn < 2; ++turn) {
+    for (const Layers layers : {Layers{true, true}, Layers{false, true}, Layers{true, false}, Layers{false, false}}) {
+      for (const albedo::Effort effort : {albedo::Effort::Fast, albedo::Effort::Full}) {
+        for (const Surface<double>& s : surfaces) {
+          const Color found = kept.shade(s, layers, effort);
+          const Color alone = UniformLight(lighting, {1.0, 2.0, 3.0}).shade(s, layers, effort);
+          EXPECT_EQ(found.r, alone.r);
+          EXPECT_EQ(found.g, alone.g);
+          EXPECT_EQ(found.b, alone.b);
+        }
+      }
+    }
+  }
+}
+
 TEST(UniformLight, CoatLiesAboveAndOcclusionDimsAll) {
   Surface<double> surface = white_lambert(0.7);
   surface.clearcoat = 0.8;
   surface.coat_alpha = 0.0;
   surface.occlusion = 0.5;
   const double k = 0.8 * (0.04 + 0.96 * std::pow(0.3, 5.0));
-  const Color radiance = shade_uniform(surface, {false, true}, {}, {2.0, 4.0, 6.0}).radiance;
+  const Color radiance = UniformLight({}, {2.0, 4.0, 6.0}).shade(surface, {false, true});
   EXPECT_NEAR(radiance.r, 1.0 * ((1.0 - k) + k), 1e-9) << "a mirror coat over white Lambert loses nothing";
   EXPECT_NEAR(radiance.b, 3.0, 1e-9);
   surface.coat_alpha = 0.25;
-  EXPECT_LT(shade_uniform(surface, {false, true}, {}, {2.0, 4.0, 6.0}).radiance.r, 1.0);
+  EXPECT_LT(UniformLight({}, {2.0, 4.0, 6.0}).shade(surface, {false, true}).r, 1.0);
 }
 
 }  // namespace
