@@ -118,7 +118,7 @@ void judge_picture(const Case& one, const PreparedCase& prepared, const image::I
   VerdictRules rules = own_rules(prepared.settings.precision, prepared.settings.sheen.scaling, !one.environment.empty());
   rules.golden_is_pxr24 = prepared.reference.pxr24;
   rules.candidate_is_srgb8 = hello.encoding == Encoding::Srgb8;
-  if (hello.name != "sheen-cts") {
+  if (!hello.is_ours()) {
     rules.leave_out_mirrored = true;
     rules.relative_tolerance = foreign_relative_tolerance;
     rules.absolute_tolerance = foreign_absolute_tolerance;
@@ -161,7 +161,7 @@ void judge_picture(const Case& one, const PreparedCase& prepared, const image::I
 /// A scene that breaks a rule must not be drawn. Texts ask no viewer but a validator to notice, so others may draw it.
 void judge_refusal(const Answer& answer, const Hello& hello, CaseResult& result) {
   if (answer.status == AnswerStatus::Rendered) {
-    result.status = hello.name == "sheen-cts" ? Status::Fail : Status::Approximation;
+    result.status = hello.is_ours() ? Status::Fail : Status::Approximation;
     result.identified = "out of range";
     result.message = "draws a scene that breaks a rule of its schema";
     return;

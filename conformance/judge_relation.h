@@ -13,6 +13,7 @@ namespace sheen::conformance {
 struct Drawing {
   std::filesystem::path scene_file;
   Answer answer;
+  image::Image golden;  ///< of our own viewer: what its picture is held to
 };
 
 /// Has every scene of a relation drawn and judges the pictures, which are kept in `images`. A scene that the viewer does not draw decides

@@ -124,8 +124,14 @@ class Session {
         hello_(viewer_.hello()),
         store_(cache_ / "goldens", options.goldens.empty() ? find_goldens() : options.goldens, suite_.name),
         prefetcher_([this](std::size_t i) { return prepare_case(suite_.cases[i], store_, cache_ / "scenes", hello_.subpixel_bits); }) {
-    for (Case& one : suite_.cases) {
-      one.precision = one.precision.value_or(parse_golden_precision(options.precision));
+    const auto settle_precision = [&](std::vector<Case>& cases) {
+      for (Case& one : cases) {
+        one.precision = one.precision.value_or(parse_golden_precision(options.precision));
+      }
+    };
+    settle_precision(suite_.cases);
+    for (Relation& relation : suite_.relations) {
+      settle_precision(relation.scenes);
     }
   }
 
@@ -200,8 +206,15 @@ class Session {
     }
   }
   Drawing draw_scene(const Case& scene) {
-    const fs::path file = write_scene(scene, cache_ / "scenes");
-    return {file, draw(scene, file)};
+    if (!hello_.is_ours()) {
+      const fs::path file = write_scene(scene, cache_ / "scenes");
+      return {file, draw(scene, file), {}};
+    }
+    PreparedCase prepared = prepare_case(scene, store_, cache_ / "scenes", hello_.subpixel_bits);
+    if (!prepared.problem.empty()) {
+      throw std::runtime_error("the golden of '" + scene.name + "': " + prepared.problem);
+    }
+    return {prepared.scene_file, draw(scene, prepared.scene_file), std::move(prepared.reference.image)};
   }
 
   const RunOptions& options_;

@@ -81,6 +81,15 @@ TEST_F(RelationRunTest, ASceneThatIsNotDrawnDecides) {
   EXPECT_EQ(outcome.status("sheen.color_zero_disables_its_textures"), "invalid");
 }
 
+TEST_F(RelationRunTest, OurOwnViewerIsHeldToTheGoldensBounds) {
+  const std::string name = "lights.of_twice_the_strength_give_twice_the_light";
+  const json answers = {{"twice_the_light.twice", even(0.6003F)}, {"twice_the_light.once", even(0.3F)}};
+  EXPECT_EQ(run_with(foreign_hello, answers, name).status(name), "pass") << "5e-4 off";
+  json ours = foreign_hello;
+  ours["viewer"] = "sheen-cts";
+  EXPECT_EQ(run_with(ours, answers, name).status(name), "fail");
+}
+
 TEST_F(RelationRunTest, AnExcuseHoldsForViewersThatTakeNoSettings) {
   const std::string name = "reciprocity.sheen_over_base.25_and_72";
   const json answers = {{"eye_at_25", even(0.5F)}, {"eye_at_72", even(0.4F)}};

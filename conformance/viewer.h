@@ -27,6 +27,8 @@ struct Hello {
   std::optional<int> mediump_bits;
   int subpixel_bits = 4;  ///< what OpenGL ES 3.0.6 promises at least, when it does not say
 
+  /// Whether it is our own, which is held to derived bounds alone.
+  bool is_ours() const { return name == "sheen-cts"; }
   /// Whether it takes the form of the model from a request's `settings`.
   bool takes_settings() const;
   /// Whether it says that its pictures went through a tone mapping.

@@ -21,9 +21,8 @@ struct BaseIntegrals {
 /// @param n_dot_v  (0, 1]
 /// @param scale    s at a cosine N.L
 /// @param kinks    cosines in (0, 1), besides N.V, where s or a derivative of it jumps
-/// @param effort   Full: to about 1e-7. Fast: to 1e-4 in a fifth of the time, and of neighbours, of which alpha or n_dot_v differ by a
-/// share,
-///                 what they differ by to 3e-3 of that share: the error is continuous in all arguments
+/// @param effort   Full: to about 1e-7. Fast: to 1e-4, in a fifth of the time. That error is continuous: where alpha or n_dot_v differ by a
+///                 share, what the integrals differ by is found to 3e-3 of that share.
 BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<double(double)>& scale,
                              const std::vector<double>& kinks = {}, albedo::Effort effort = albedo::Effort::Full);
 
