@@ -1,6 +1,8 @@
 // The freedom in the level of detail: whatever levels a driver picks for the textures of a surface, its value must stay inside the bound.
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -187,6 +189,37 @@ TEST(LodBound, HoldsTheLevelsOfEachLayerUnderAnEnvironment) {
   }
   EXPECT_GT(largest[0], 0.2);
   EXPECT_GT(largest[1], 0.2);
+}
+
+// An image's light is drawn, that of a white one is uniform light.
+TEST(LodBound, UnderAWhiteImageIsNearlyThatUnderUniformLight) {
+  scene::Scene s = cloth_over_cloth();
+  s.lights.clear();
+  scene::Environment uniform;
+  uniform.uniform = glm::dvec3(1.0);
+  scene::Environment image;
+  image.width = 8;
+  image.height = 4;
+  image.texels.assign(32, glm::vec3(1.0F));
+  const auto golden_under = [&](const scene::Environment& environment) {
+    Settings settings = test::settings_for(image_size, image_size, true);
+    settings.environment = &environment;
+    return render(s, settings);
+  };
+  const image::Image by_nodes = golden_under(uniform);
+  const image::Image drawn = golden_under(image);
+  const int g = drawn.channel("bound.G");
+  std::vector<double> ratios;
+  for (int y = 0; y < image_size; ++y) {
+    for (int x = 0; x < image_size; ++x) {
+      if (drawn.at(x, y, 3) > 0.0F && drawn.at(x, y, drawn.channel("excluded")) == 0.0F) {
+        ratios.push_back(drawn.at(x, y, g) / by_nodes.at(x, y, g));
+      }
+    }
+  }
+  ASSERT_GT(ratios.size(), 100U);
+  std::sort(ratios.begin(), ratios.end());
+  EXPECT_GT(ratios[ratios.size() / 20], 0.9) << "it has its standard error beside";
 }
 
 // What a punctual light may be off is counted once, beside what the environment may.
