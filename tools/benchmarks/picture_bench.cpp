@@ -1,4 +1,5 @@
-// A whole picture of a velvet sphere, 256 x 256, three lights: the golden with its bounds, and a frame of the renderer.
+// A whole picture of a velvet sphere, 256 x 256, three lights, and light from everywhere beside them: the golden with its bounds, and a
+// frame of the renderer.
 #include <memory>
 
 #include <benchmark/benchmark.h>
@@ -12,21 +13,27 @@ namespace {
 
 constexpr int size = 256;
 
-void golden_picture(benchmark::State& state, bool clearcoat, bool bounds) {
+void golden_picture(benchmark::State& state, bool clearcoat, bool bounds, bool light_from_everywhere) {
+  sheen::scene::Environment environment;
+  environment.uniform = glm::dvec3(1.0);
   const sheen::scene::Scene scene = sheen::bench::sphere_scene(clearcoat);
   sheen::golden::Settings settings;
   settings.view.width = size;
   settings.view.height = size;
   settings.bounds = bounds;
+  settings.environment = light_from_everywhere ? &environment : nullptr;
   for ([[maybe_unused]] auto step : state) {
     benchmark::DoNotOptimize(sheen::golden::render(scene, settings));
   }
   state.counters["pixels"] = benchmark::Counter(size * size, benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK_CAPTURE(golden_picture, sheen, false, false)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(golden_picture, sheen_with_bounds, false, true)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(golden_picture, clearcoat_over_sheen, true, false)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(golden_picture, clearcoat_over_sheen_with_bounds, true, true)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+BENCHMARK_CAPTURE(golden_picture, sheen, false, false, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(golden_picture, sheen_with_bounds, false, true, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(golden_picture, clearcoat_over_sheen, true, false, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(golden_picture, clearcoat_over_sheen_with_bounds, true, true, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(golden_picture, in_uniform_light, true, false, true)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(golden_picture, in_uniform_light_with_bounds, true, true, true)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void renderer_frame(benchmark::State& state, sheen::gles::ContextKind kind, bool clearcoat) {
   std::unique_ptr<sheen::gles::Context> context;
