@@ -115,14 +115,7 @@ void keep_golden(const fs::path& images, const std::string& name, const image::I
 
 void judge_picture(const Case& one, const PreparedCase& prepared, const image::Image& candidate, const Hello& hello,
                    const GoldenStore& store, CaseResult& result) {
-  VerdictRules rules = own_rules(prepared.settings.precision, prepared.settings.sheen.scaling, !one.environment.empty());
-  rules.golden_is_pxr24 = prepared.reference.pxr24;
-  rules.candidate_is_srgb8 = hello.encoding == Encoding::Srgb8;
-  if (!hello.is_ours()) {
-    rules.leave_out_mirrored = true;
-    rules.relative_tolerance = foreign_relative_tolerance;
-    rules.absolute_tolerance = foreign_absolute_tolerance;
-  }
+  const VerdictRules rules = rules_of(one, prepared, hello);
   const image::Image& golden = prepared.reference.image;
   result.verdict = judge(candidate, golden, rules);
   result.status = result.verdict->status;
@@ -181,6 +174,18 @@ VerdictRules own_rules(golden::Precision precision, albedo::AlbedoScaling scalin
     rules.most_vague = 1;
   }
   rules.environment_tolerance = environment ? environment_tolerance : 0;
+  return rules;
+}
+
+VerdictRules rules_of(const Case& one, const PreparedCase& prepared, const Hello& hello) {
+  VerdictRules rules = own_rules(prepared.settings.precision, prepared.settings.sheen.scaling, !one.environment.empty());
+  rules.golden_is_pxr24 = prepared.reference.pxr24;
+  rules.candidate_is_srgb8 = hello.encoding == Encoding::Srgb8;
+  if (!hello.is_ours()) {
+    rules.leave_out_mirrored = true;
+    rules.relative_tolerance = foreign_relative_tolerance;
+    rules.absolute_tolerance = foreign_absolute_tolerance;
+  }
   return rules;
 }
 

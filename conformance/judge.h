@@ -77,6 +77,9 @@ VerdictRules own_rules(golden::Precision precision, albedo::AlbedoScaling scalin
 CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answer& answer, const Hello& hello, const GoldenStore& store,
                       const std::filesystem::path& images);
 
+/// What judges a picture of the case.
+VerdictRules rules_of(const Case& one, const PreparedCase& prepared, const Hello& hello);
+
 /// What a viewer's answer without a picture makes of a case.
 Status status_of(AnswerStatus status);
 

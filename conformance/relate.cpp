@@ -19,8 +19,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// More than this share of the region left out, and the rest proves nothing.
 constexpr double most_left_out = 0.5;
 
-constexpr float unpromised_reason = 4;  // of a golden's channel "excluded"
-
 /// One channel of one pixel.
 struct Sample {
   double counted = 0;
@@ -30,13 +28,6 @@ struct Sample {
   double ratio() const { return counted == 0 ? 0 : tolerance > 0 ? counted / tolerance : infinity; }
   double relative() const { return counted / std::max(std::abs(reference), 1e-3); }
 };
-
-/// The channels of a picture that are compared, or of a golden what bounds them; -1 where it has none.
-using Channels = std::array<int, 4>;
-
-Channels channels_of(const image::Image& picture, const std::string& prefix = "") {
-  return {picture.channel(prefix + "R"), picture.channel(prefix + "G"), picture.channel(prefix + "B"), picture.channel(prefix + "A")};
-}
 
 image::Image turned(const image::Image& picture) {
   image::Image made = picture;
@@ -57,12 +48,9 @@ class Comparison {
       : relation_(relation), rules_(rules), pictures_(std::move(pictures)) {
     for (std::size_t i = 1; i < pictures_.size() && relation.mirrored; ++i) {
       pictures_[i] = turned(pictures_[i]);
-      if (held_to_goldens()) {
-        rules_.goldens[i] = turned(rules_.goldens[i]);
-      }
     }
     for (const image::Image& picture : pictures_) {
-      channels_.push_back(channels_of(picture));
+      channels_.push_back({picture.channel("R"), picture.channel("G"), picture.channel("B"), picture.channel("A")});
     }
     all_have_alpha_ = std::all_of(channels_.begin(), channels_.end(), [](const auto& c) { return c[3] >= 0; });
     left_ = static_cast<int>(std::floor(relation.region[0] * width()));
@@ -102,14 +90,7 @@ class Comparison {
     }
     return true;
   }
-  bool in_mediump() const { return rules_.mediump; }
-  bool held_to_goldens() const { return !rules_.goldens.empty(); }
-  /// Whether the rules promise nothing of it, and it need not count among those that are left out.
-  bool unpromised(int x, int y) const { return rules_.mediump && excluded(x, y, unpromised_reason); }
   bool left_out(int x, int y) const {
-    if (held_to_goldens()) {
-      return excluded(x, y);
-    }
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
       if ((relation_.moved && at_edge(i, x, y)) || (rules_.srgb8 && relation_.kind == RelationKind::Linear && saturated(i, x, y))) {
         return true;
@@ -133,10 +114,8 @@ class Comparison {
     }
     made.counted = demand.counted(sum);
     made.reference = value(0, x, y, c);
-    if (relation_.exact && rules_.ours && !rules_.mediump) {
+    if (relation_.exact && rules_.ours) {
       made.tolerance = 0;
-    } else if (held_to_goldens()) {
-      made.counted = std::abs(sum - sum_of_goldens(demand, x, y, c));
     }
     return made;
   }
@@ -151,24 +130,7 @@ class Comparison {
  private:
   double alpha(std::size_t i, int x, int y) const { return channels_[i][3] >= 0 ? static_cast<double>(value(i, x, y, 3)) : 1.0; }
 
-  /// Whether a golden excludes the pixel, for that reason if one is given.
-  bool excluded(int x, int y, float reason = 0) const {
-    return std::any_of(rules_.goldens.begin(), rules_.goldens.end(), [=](const image::Image& golden) {
-      const float why = golden.at(x, y, golden.channel("excluded"));
-      return reason > 0 ? why == reason : why != 0;
-    });
-  }
-  double sum_of_goldens(const Demand& demand, int x, int y, std::size_t c) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < rules_.goldens.size(); ++i) {
-      sum += demand.weights[i] * rules_.goldens[i].at(x, y, channels_of(rules_.goldens[i]).at(c));
-    }
-    return sum;
-  }
   double tolerance(std::size_t i, int x, int y, std::size_t c) const {
-    if (held_to_goldens()) {
-      return rules_.goldens[i].at(x, y, channels_of(rules_.goldens[i], "bound.").at(c));
-    }
     const double v = value(i, x, y, c);
     double t = relation_.relative * std::abs(v) + relation_.absolute;
     if (rules_.srgb8) {
@@ -211,7 +173,7 @@ class Comparison {
   const Relation& relation_;
   RelationRules rules_;
   std::vector<image::Image> pictures_;
-  std::vector<Channels> channels_;
+  std::vector<std::array<int, 4>> channels_;
   bool all_have_alpha_ = false;
   int left_ = 0, top_ = 0, right_ = 0, bottom_ = 0;
 };
@@ -250,9 +212,6 @@ std::string describe(const Relation& relation, const Comparison& comparison, con
   }
   const std::string place = "at pixel " + std::to_string(worst.x) + ", " + std::to_string(worst.y) + " (" + values + ")";
   const std::string share = number(100 * relation.share) + " % of the pixels";
-  if (comparison.held_to_goldens() && std::isfinite(worst.ratio)) {
-    return names + " are off what their goldens are to each other by " + number(worst.ratio) + " times the bounds " + place;
-  }
   switch (worst.demand->must) {
     case Must::Vanish:
       return names +
@@ -280,7 +239,7 @@ Finding measure(const Relation& relation, const Comparison& comparison, const st
     verdict.excluded_pixels = 0;
     for (int y = 0; y < comparison.height(); ++y) {
       for (int x = 0; x < comparison.width(); ++x) {
-        if (!comparison.looks_at(x, y) || !comparison.finite(x, y) || comparison.unpromised(x, y)) {
+        if (!comparison.looks_at(x, y) || !comparison.finite(x, y)) {
           continue;
         }
         if (comparison.left_out(x, y)) {
@@ -302,7 +261,7 @@ Finding measure(const Relation& relation, const Comparison& comparison, const st
         }
       }
     }
-    if (!demand.holds_everywhere() && !comparison.held_to_goldens()) {
+    if (!demand.holds_everywhere()) {
       // The share of the pixels that differ most: the least of them must still be over its tolerance.
       const double reached = nearest_rank(ratios, 1 - relation.share);
       here.ratio = reached > 0 ? 1 / reached : infinity;
@@ -323,9 +282,6 @@ void decide(const Relation& relation, const Comparison& comparison, const Findin
   if (verdict.nonfinite_pixels > 0) {
     verdict.status = Status::Fail;
     verdict.message = std::to_string(verdict.nonfinite_pixels) + " pixels are NaN or Inf";
-  } else if (looked_at == 0 && comparison.in_mediump()) {
-    verdict.status = Status::Pass;
-    verdict.message = "finite; in mediump the rules promise nothing more of any pixel";
   } else if (verdict.compared_pixels == 0 || static_cast<double>(verdict.excluded_pixels) > most_left_out * looked_at) {
     verdict.message = std::to_string(verdict.excluded_pixels) + " pixels are left out, more than may be";
   } else if (!(worst.ratio <= 1)) {

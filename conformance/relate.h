@@ -15,9 +15,6 @@ struct RelationRules {
       false;              ///< it says that it maps tones: of a linear relation only the order is left that radiance has for being positive
   bool ours = false;      ///< held to relations that are exact
   int subpixel_bits = 4;  ///< of its rasteriser
-  /// Of our own viewer, what its pictures are held to: a golden of each scene, with bounds. Empty: the relation's own tolerance.
-  std::vector<image::Image> goldens;
-  bool mediump = false;  ///< of our own viewer: pixels for which the rules promise nothing do not count, and nothing is exact
 };
 
 /// Judges the pictures of a relation's scenes, in the order of the scenes. A pure function.
@@ -28,10 +25,8 @@ struct RelationRules {
 /// axis of a sample may be off by a step; without coverage no edge is known, and the step is a whole pixel).
 /// - Equal, Linear: |s| <= t everywhere. Differs: |s| > t in at least `share` of the pixels.
 /// - Brighter: s <= t everywhere for the next picture less this one, and s > t in `share` of the pixels for this one less the next.
-/// With goldens, of which the truth itself is held to the relation (semantics_test.cpp), no tolerance is picked: whatever is demanded, s is
-/// what it is of the goldens, everywhere, but for the sum of |w_i| times their bounds.
-/// Left out are those that a golden excludes; without goldens, where `moved`, the pixels at an edge of the coverage and, of Linear, those
-/// where a code is the largest (it may stand for anything above). A NaN or Inf anywhere fails.
+/// Left out are, where `moved`, the pixels at an edge of the coverage and, of Linear, those where a code is the largest (it may stand for
+/// anything above). A NaN or Inf anywhere fails.
 ///
 /// In the verdict, bound_ratio is the largest of |s| / t, or for what must exceed t the reverse, at the pixel that ranks at the share; at
 /// most 1 passes. max_abs, max_rel and p99_rel are of |s|, relative to the first picture. Unsupported where a linear law leaves no order.

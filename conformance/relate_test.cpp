@@ -47,18 +47,6 @@ image::Image touched(image::Image picture, int x, int y, double by) {
   return picture;
 }
 
-image::Image turned_around(const image::Image& picture) {
-  image::Image made = picture;
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      for (int c = 0; c < 4; ++c) {
-        made.at(x, y, c) = picture.at(side - 1 - x, y, c);
-      }
-    }
-  }
-  return made;
-}
-
 /// What is left of a picture that went through 8-bit sRGB codes.
 image::Image coded(image::Image picture) {
   for (float& value : picture.data) {
@@ -117,88 +105,6 @@ TEST(RelateEqual, ExactBindsOurOwnViewerToTheBit) {
   EXPECT_EQ(status(equal, nearly, rules), Status::Fail);
   EXPECT_NE(relate(equal, nearly, rules).message.find("are not the same to the bit at pixel 9, 5"), std::string::npos);
   EXPECT_EQ(status(equal, {disc(1), disc(1)}, rules), Status::Pass);
-}
-
-/// A golden that shows this and bounds every channel by `bound`.
-image::Image golden_of(const image::Image& shown, float bound) {
-  image::Image golden(side, side, {"R", "G", "B", "A", "bound.R", "bound.G", "bound.B", "bound.A", "excluded"});
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      for (int c = 0; c < 4; ++c) {
-        golden.at(x, y, c) = shown.at(x, y, c);
-        golden.at(x, y, 4 + c) = bound;
-      }
-    }
-  }
-  return golden;
-}
-
-TEST(RelateEqual, OfOurOwnViewerAreTheBoundsOfItsGoldensTheTolerance) {
-  Relation equal = relation_of(RelationKind::Equal);
-  const std::vector<image::Image> nearly = {disc(1), touched(disc(1), 9, 5, 1e-4)};
-  RelationRules rules;
-  rules.ours = true;
-  EXPECT_EQ(status(equal, nearly, rules), Status::Pass) << "1e-3 of 0.38 and as much again";
-  rules.goldens = {golden_of(disc(1), 3e-5F), golden_of(disc(1), 3e-5F)};
-  EXPECT_EQ(status(equal, nearly, rules), Status::Fail);
-  EXPECT_NEAR(relate(equal, nearly, rules).bound_ratio, 1e-4 / 6e-5, 1e-2);
-  rules.goldens[1] = golden_of(disc(1), 8e-5F);
-  EXPECT_EQ(status(equal, nearly, rules), Status::Pass) << "each picture by its own golden's";
-  rules.goldens[0].at(9, 5, 5) = 1e-5F;
-  rules.goldens[1].at(9, 5, 5) = 2e-5F;
-  EXPECT_EQ(status(equal, nearly, rules), Status::Fail) << "each channel of each pixel by its own";
-  rules.goldens[1].at(9, 5, 8) = 4.0F;
-  EXPECT_EQ(status(equal, nearly, rules), Status::Pass) << "which one golden excludes";
-  EXPECT_EQ(relate(equal, nearly, rules).excluded_pixels, 1);
-  rules.mediump = true;
-  EXPECT_EQ(relate(equal, nearly, rules).excluded_pixels, 0) << "for which nothing is promised, and need not be";
-  rules.goldens[1].at(9, 5, 8) = 1.0F;
-  EXPECT_EQ(relate(equal, nearly, rules).excluded_pixels, 1) << "but an edge counts";
-  rules.goldens[1].at(9, 5, 8) = 0.0F;
-  rules.goldens = {golden_of(disc(1), 3e-5F), golden_of(turned_around(disc(1)), 3e-5F)};
-  rules.goldens[1].at(side - 1 - 9, 5, 5) = 8e-5F;
-  equal.mirrored = true;
-  const std::vector<image::Image> mirrored = {disc(1), touched(turned_around(disc(1)), side - 1 - 9, 5, 1e-4)};
-  EXPECT_EQ(status(equal, mirrored, rules), Status::Pass) << "the golden is turned with its picture";
-  rules.goldens[1].at(side - 1 - 9, 5, 5) = 3e-5F;
-  EXPECT_EQ(status(equal, mirrored, rules), Status::Fail);
-}
-
-// A law may hold but nearly of what the text says, and a difference be smaller than what may be off: both are as the goldens have them.
-TEST(RelateLinear, OfOurOwnViewerIsWhatTheGoldensHaveOfIt) {
-  RelationRules rules;
-  rules.ours = true;
-  rules.goldens = {golden_of(disc(1), 1e-5F), golden_of(disc(1), 1e-5F)};
-  for (float& value : rules.goldens[1].data) {
-    value *= value < 1.0F && value > 1e-3F ? 1.01F : 1.0F;  // of the colours, not their bounds
-  }
-  for (const RelationKind kind : {RelationKind::Equal, RelationKind::Differs, RelationKind::Brighter, RelationKind::Linear}) {
-    const Relation relation = kind == RelationKind::Linear ? relation_of(kind, {1.0, -1.0}) : relation_of(kind);
-    EXPECT_EQ(status(relation, {disc(1), disc(1.01)}, rules), Status::Pass) << to_string(kind);
-    EXPECT_EQ(status(relation, {disc(1), disc(1.011)}, rules), Status::Fail) << to_string(kind);
-    EXPECT_EQ(status(relation, {disc(1), disc(1)}, rules), Status::Fail) << to_string(kind);
-  }
-}
-
-TEST(RelateEqual, InMediumpWhatIsNotPromisedBindsNobody) {
-  Relation equal = relation_of(RelationKind::Equal);
-  equal.exact = true;
-  RelationRules rules;
-  rules.ours = true;
-  rules.mediump = true;
-  rules.goldens = {golden_of(disc(1), 1e-3F), golden_of(disc(1), 1e-3F)};
-  const std::vector<image::Image> nearly = {disc(1), touched(disc(1), 9, 5, 1e-3)};
-  EXPECT_EQ(status(equal, nearly, rules), Status::Pass) << "no rule asks for the same bits of two shaders";
-  EXPECT_EQ(status(equal, {disc(1), touched(disc(1), 9, 5, 3e-3)}, rules), Status::Fail);
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      rules.goldens[1].at(x, y, 8) = 4.0F;
-    }
-  }
-  EXPECT_EQ(status(equal, {disc(1), disc(2)}, rules), Status::Pass);
-  EXPECT_EQ(status(equal, {disc(1), touched(disc(1), 9, 5, std::numeric_limits<double>::quiet_NaN())}, rules), Status::Fail);
-  rules.mediump = false;
-  EXPECT_EQ(status(equal, {disc(1), disc(1)}, rules), Status::Invalid) << "highp promises something of every picture";
 }
 
 TEST(RelateEqual, OfCodesMayBeOneApart) {

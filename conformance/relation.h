@@ -30,8 +30,8 @@ struct Relation {
   std::vector<Case> scenes;
   std::vector<std::string> labels;  ///< of the scenes
   std::vector<double> weights;      ///< Linear: one a scene
-  /// How far a picture may be from what it should be, by part of its value and absolutely, unless the file says otherwise (and why). Our own
-  /// viewer is granted the bounds of its scenes' goldens instead (README, "How a verdict is reached").
+  /// How far a picture may be from what it should be, by part of its value and absolutely, unless the file says otherwise (and why). Our
+  /// own viewer's pictures are held to their goldens instead (README, "How a verdict is reached").
   double relative = 1e-3;
   double absolute = 2e-5;
   double share = 0.02;                       ///< Differs, Brighter: of the pixels looked at

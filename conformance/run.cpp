@@ -131,7 +131,9 @@ class Session {
     };
     settle_precision(suite_.cases);
     for (Relation& relation : suite_.relations) {
-      settle_precision(relation.scenes);
+      if (hello_.is_ours()) {
+        settle_precision(relation.scenes);
+      }
     }
   }
 
@@ -208,13 +210,14 @@ class Session {
   Drawing draw_scene(const Case& scene) {
     if (!hello_.is_ours()) {
       const fs::path file = write_scene(scene, cache_ / "scenes");
-      return {file, draw(scene, file), {}};
+      return {file, draw(scene, file), std::nullopt};
     }
     PreparedCase prepared = prepare_case(scene, store_, cache_ / "scenes", hello_.subpixel_bits);
     if (!prepared.problem.empty()) {
       throw std::runtime_error("the golden of '" + scene.name + "': " + prepared.problem);
     }
-    return {prepared.scene_file, draw(scene, prepared.scene_file), std::move(prepared.reference.image)};
+    const Answer answer = draw(scene, prepared.scene_file);
+    return {prepared.scene_file, answer, std::move(prepared)};
   }
 
   const RunOptions& options_;

@@ -276,47 +276,73 @@ glm::dvec3 SurfaceReader::mapped_normal(const Hit& hit, const Ray& ray, LodChoic
   return mapped_normal(slot, scale, interpolated_normal(hit), hit, footprint(hit, ray, lod));
 }
 
-Surface<double> SurfaceReader::surface(const Hit& hit, const Ray& ray, LodChoice lod) const {
+// What one texture decides, whether it is there or not.
+void SurfaceReader::fill(Surface<double>& s, std::size_t slot, const Hit& hit, const Footprint& f) const {
   const Placed& placed = geometry_.placed(hit.triangle);
   const Material& m = materials_[static_cast<std::size_t>(placed.material_index)];
   const scene::Material& source = *m.source;
-  const Footprint f = footprint(hit, ray, lod);
-  const auto v = geometry_.local_vertices(hit.triangle);
   const auto square = [](double x) { return x * x; };
+  const double side = hit.front ? 1.0 : -1.0;
+  if (&slot_of(m, slot) == &m.normal) {
+    s.normal = vec3(mapped_normal(m.normal, source.normal_scale, interpolated_normal(hit), hit, f) * side);
+  } else if (&slot_of(m, slot) == &m.clearcoat_normal) {
+    s.coat_normal = vec3(mapped_normal(m.clearcoat_normal, source.clearcoat.normal_scale, interpolated_normal(hit), hit, f) * side);
+  } else if (&slot_of(m, slot) == &m.base_color) {
+    glm::dvec3 color = glm::dvec3(source.base_color_factor) * glm::dvec3(read(m.base_color, hit, f));
+    if (!placed.primitive->colors.empty()) {
+      color *= glm::dvec3(interpolate<glm::dvec4>(placed.primitive->colors, geometry_.local_vertices(hit.triangle), hit.weights));
+    }
+    s.base.color = rgb(color);
+  } else if (&slot_of(m, slot) == &m.metallic_roughness) {
+    const glm::dvec4 metallic_roughness = read(m.metallic_roughness, hit, f);
+    s.base.metallic = source.metallic_factor * metallic_roughness.z;
+    s.base.alpha = square(source.roughness_factor * metallic_roughness.y);
+  } else if (&slot_of(m, slot) == &m.specular_color) {
+    s.base.dielectric_f0 = brdf::dielectric_f0(source.ior, rgb(source.specular.color_factor * glm::dvec3(read(m.specular_color, hit, f))));
+  } else if (&slot_of(m, slot) == &m.specular) {
+    s.base.specular = source.specular.factor * read(m.specular, hit, f).w;
+  } else if (&slot_of(m, slot) == &m.emissive) {
+    s.emission = rgb(source.emissive_factor * glm::dvec3(read(m.emissive, hit, f)));
+  } else if (&slot_of(m, slot) == &m.occlusion) {
+    s.occlusion = 1.0 + (m.occlusion.texture ? source.occlusion_strength * (read(m.occlusion, hit, f).x - 1.0) : 0.0);
+  } else if (&slot_of(m, slot) == &m.sheen_color && m.layers.sheen) {
+    s.sheen_color = rgb(source.sheen.color_factor * glm::dvec3(read(m.sheen_color, hit, f)));
+  } else if (&slot_of(m, slot) == &m.sheen_roughness && m.layers.sheen) {
+    s.sheen_roughness = source.sheen.roughness_factor * read(m.sheen_roughness, hit, f).w;
+  } else if (&slot_of(m, slot) == &m.clearcoat && m.layers.clearcoat) {
+    s.clearcoat = source.clearcoat.factor * read(m.clearcoat, hit, f).x;
+  } else if (&slot_of(m, slot) == &m.clearcoat_roughness && m.layers.clearcoat) {
+    s.coat_alpha = square(source.clearcoat.roughness_factor * read(m.clearcoat_roughness, hit, f).y);
+  }
+}
 
+Surface<double> SurfaceReader::surface(const Hit& hit, const Ray& ray, LodChoice lod) const {
+  const Material& m = materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)];
+  const Footprint f = footprint(hit, ray, lod);
   Surface<double> s{};
   s.position = vec3(interpolate<glm::dvec3>(geometry_.positions(), geometry_.vertices(hit.triangle), hit.weights));
   s.view = vec3(rays_.toward_camera(ray));
-  const double side = hit.front ? 1.0 : -1.0;
-  const glm::dvec3 normal = interpolated_normal(hit);
-  s.normal = vec3(mapped_normal(m.normal, source.normal_scale, normal, hit, f) * side);
-  s.coat_normal = vec3(mapped_normal(m.clearcoat_normal, source.clearcoat.normal_scale, normal, hit, f) * side);
+  for (std::size_t slot = 0; slot < slot_count; ++slot) {
+    fill(s, slot, hit, f);
+  }
+  if (m.layers.sheen && model_ == brdf::Model::Draft2019) {
+    s.sheen_color = brdf::draft_sheen_color(s.sheen_color, s.base.color, s.base.metallic);
+    s.sheen_roughness = m.source->roughness_factor * read(m.metallic_roughness, hit, f).y;
+  }
+  return s;
+}
 
-  glm::dvec3 color = glm::dvec3(source.base_color_factor) * glm::dvec3(read(m.base_color, hit, f));
-  if (!placed.primitive->colors.empty()) {
-    color *= glm::dvec3(interpolate<glm::dvec4>(placed.primitive->colors, v, hit.weights));
+Surface<double> SurfaceReader::varied(const Surface<double>& usual, const Hit& hit, const Ray& ray, LodChoice lod) const {
+  if (!lod.level || model_ == brdf::Model::Draft2019) {  // whose sheen depends on the base's textures
+    return surface(hit, ray, lod);
   }
-  const glm::dvec4 metallic_roughness = read(m.metallic_roughness, hit, f);
-  const glm::dvec3 specular_color = source.specular.color_factor * glm::dvec3(read(m.specular_color, hit, f));
-  s.base.color = rgb(color);
-  s.base.metallic = source.metallic_factor * metallic_roughness.z;
-  s.base.alpha = square(source.roughness_factor * metallic_roughness.y);
-  s.base.dielectric_f0 = brdf::dielectric_f0(source.ior, rgb(specular_color));
-  s.base.specular = source.specular.factor * read(m.specular, hit, f).w;
-  s.emission = rgb(source.emissive_factor * glm::dvec3(read(m.emissive, hit, f)));
-  s.occlusion = 1.0 + (m.occlusion.texture ? source.occlusion_strength * (read(m.occlusion, hit, f).x - 1.0) : 0.0);
-  if (m.layers.sheen) {
-    s.sheen_color = rgb(source.sheen.color_factor * glm::dvec3(read(m.sheen_color, hit, f)));
-    s.sheen_roughness = source.sheen.roughness_factor * read(m.sheen_roughness, hit, f).w;
-    if (model_ == brdf::Model::Draft2019) {
-      s.sheen_color = brdf::draft_sheen_color(s.sheen_color, s.base.color, s.base.metallic);
-      s.sheen_roughness = source.roughness_factor * metallic_roughness.y;
-    }
-  }
-  if (m.layers.clearcoat) {
-    s.clearcoat = source.clearcoat.factor * read(m.clearcoat, hit, f).x;
-    s.coat_alpha = square(source.clearcoat.roughness_factor * read(m.clearcoat_roughness, hit, f).y);
-  }
+  Footprint f;
+  f.count = 1;
+  f.ray = &ray;
+  f.varied = &slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], lod.slot);
+  f.level = *lod.level;
+  Surface<double> s = usual;
+  fill(s, lod.slot, hit, f);
   return s;
 }
 

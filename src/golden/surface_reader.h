@@ -79,7 +79,7 @@ class SurfaceReader {
 
   /// Textures a material may have; base colour is the first.
   static constexpr std::size_t slot_count = 12;
-  static constexpr std::size_t normal_slot = 2, clearcoat_normal_slot = 10;
+  static constexpr std::size_t base_color_slot = 0, normal_slot = 2, clearcoat_normal_slot = 10;
 
   /// From the least level allowed for one texture of the surface at a hit to the most; none where it has no mipmaps or is not there.
   std::optional<LodInterval> lod_interval(const Hit& hit, const Ray& ray, std::size_t slot) const;
@@ -110,6 +110,9 @@ class SurfaceReader {
   /// What shading needs at a hit of a ray; weights outside [0, 1] extrapolate.
   Surface<double> surface(const Hit& hit, const Ray& ray, LodChoice lod = {}) const;
 
+  /// The same where `usual` is the surface without such a choice, in less time.
+  Surface<double> varied(const Surface<double>& usual, const Hit& hit, const Ray& ray, LodChoice lod) const;
+
   /// Alpha of the base colour times that of COLOR_0, in [0, 1] (glTF 2.0, section 3.9.4).
   double opacity(const Hit& hit, const Ray& ray, LodChoice lod = {}) const;
 
@@ -132,6 +135,7 @@ class SurfaceReader {
   glm::dvec3 mapped_normal(const Hit& hit, const Ray& ray, LodChoice lod) const;
   glm::dvec3 interpolated_normal(const Hit& hit) const;
   Footprint footprint(const Hit& hit, const Ray& ray, LodChoice lod) const;
+  void fill(Surface<double>& s, std::size_t slot, const Hit& hit, const Footprint& f) const;
 
   const Geometry& geometry_;
   const RayGenerator& rays_;

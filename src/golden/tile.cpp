@@ -18,16 +18,16 @@ Tile::Tile(const Frame& frame, const PixelBound* bound) : frame_(frame), bound_(
   }
 }
 
-void Tile::add_layer(const Hit& hit, const Ray& ray, LodChoice lod) {
+void Tile::add_layer(const Hit& hit, const Ray& ray) {
   const Placed& placed = frame_.geometry.placed(hit.triangle);
   const bool blends = placed.material->alpha_mode == scene::AlphaMode::Blend;
-  layers_.push_back({static_cast<std::uint32_t>(surfaces_.size()), blends ? frame_.reader.opacity(hit, ray, lod) : 1.0});
-  surfaces_.push_back(frame_.reader.surface(hit, ray, lod));
+  layers_.push_back({static_cast<std::uint32_t>(surfaces_.size()), blends ? frame_.reader.opacity(hit, ray) : 1.0});
+  surfaces_.push_back(frame_.reader.surface(hit, ray));
   materials_.push_back(placed.material_index);
 }
 
 void Tile::add_layers(const Seen& seen, const Ray& ray) {
-  seen.for_layers([&](const Hit& hit) { add_layer(hit, ray, {}); });
+  seen.for_layers([&](const Hit& hit) { add_layer(hit, ray); });
 }
 
 void Tile::add_sample(const Seen& seen, const Ray& ray) {
@@ -38,15 +38,21 @@ void Tile::add_sample(const Seen& seen, const Ray& ray) {
 
 // The layers that begin at `first`, of which one is read otherwise.
 void Tile::add_varied(std::uint32_t first, std::uint32_t count, std::uint32_t varied, const Hit& hit, const Ray& ray, LodChoice lod) {
-  samples_.push_back({static_cast<std::uint32_t>(layers_.size()), count, background(ray)});
+  const auto begin = static_cast<std::uint32_t>(layers_.size());
+  samples_.push_back({begin, count, background(ray)});
   for (std::uint32_t layer = 0; layer < count; ++layer) {
-    if (layer == varied) {
-      add_layer(hit, ray, lod);
-    } else {
-      const LayerRef same = layers_[first + layer];
-      layers_.push_back(same);
-    }
+    const LayerRef same = layers_[first + layer];
+    layers_.push_back(same);
   }
+  LayerRef& other = layers_[begin + varied];
+  const Placed& placed = frame_.geometry.placed(hit.triangle);
+  if (placed.material->alpha_mode == scene::AlphaMode::Blend && (!lod.level || lod.slot == SurfaceReader::base_color_slot)) {
+    other.opacity = frame_.reader.opacity(hit, ray, lod);
+  }
+  const Surface<double> usual = surfaces_[other.surface];
+  other.surface = static_cast<std::uint32_t>(surfaces_.size());
+  surfaces_.push_back(frame_.reader.varied(usual, hit, ray, lod));
+  materials_.push_back(placed.material_index);
 }
 
 bool Tile::shows_background() const {
@@ -229,28 +235,30 @@ Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
 
 Pixel Tile::finish(const Plan& plan) const {
   const Composed centre = compose(samples_[plan.centre]);
-  const auto from_environment = [](const Composed& c) { return c.radiance - c.direct; };
-  const glm::dvec3 here = from_environment(centre);
+  const glm::dvec3 here = centre.radiance - centre.direct;
+  // The most that an environment's light changes, and the most between a sample and the one before.
+  struct Change {
+    glm::dvec3 from_here{0.0}, from_before{0.0};
+  };
   const auto largest_change = [&](std::uint32_t begin, std::uint32_t end) {
-    glm::dvec3 largest(0.0);
+    Change largest;
+    glm::dvec3 before(0.0);
     for (std::uint32_t i = begin; i < end; ++i) {
-      largest = glm::max(largest, glm::abs(from_environment(compose(samples_[i])) - here));
+      const Composed there = compose(samples_[i]);
+      const glm::dvec3 light = there.radiance - there.direct;
+      largest.from_here = glm::max(largest.from_here, glm::abs(light - here));
+      largest.from_before = i > begin ? glm::max(largest.from_before, glm::abs(light - before)) : largest.from_before;
+      before = light;
     }
     return largest;
   };
-  glm::dvec3 change = largest_change(plan.centre + 1, plan.shifted_end);
-  // What may come between two levels that were tried: beyond the nearer one by half of what they differ.
-  const auto between = [&](std::uint32_t begin, std::uint32_t end) {
-    glm::dvec3 largest(0.0);
-    for (std::uint32_t i = begin + 1; i < end; ++i) {
-      largest = glm::max(largest, 0.5 * glm::abs(from_environment(compose(samples_[i])) - from_environment(compose(samples_[i - 1]))));
-    }
-    return largest;
-  };
-  // Each texture's level is the driver's to choose, whatever the others': their largest changes add.
+  glm::dvec3 change = largest_change(plan.centre + 1, plan.shifted_end).from_here;
+  // Each texture's level is the driver's to choose, whatever the others': their largest changes add. What may come between two levels that
+  // were tried: beyond the nearer one by half of what they differ.
   std::uint32_t begin = plan.shifted_end;
   for (std::uint32_t group = plan.first_group; group < plan.last_group; ++group) {
-    change += largest_change(begin, lod_group_ends_[group]) + between(begin, lod_group_ends_[group]);
+    const Change of_level = largest_change(begin, lod_group_ends_[group]);
+    change += of_level.from_here + 0.5 * of_level.from_before;
     begin = lod_group_ends_[group];
   }
   Pixel pixel;

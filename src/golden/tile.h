@@ -91,7 +91,7 @@ class Tile {
   void add_varied(std::uint32_t first, std::uint32_t count, std::uint32_t varied, const Hit& hit, const Ray& ray, LodChoice lod);
   void add_layers(const Seen& seen, const Ray& ray);
   void add_sample_with_tie(Seen& seen, const Ray& ray);
-  void add_layer(const Hit& hit, const Ray& ray, LodChoice lod);
+  void add_layer(const Hit& hit, const Ray& ray);
   bool interrupted(const Ray& ray, const Seen& seen, std::optional<double> depths = std::nullopt) const;
   Seen extended(const Seen& centre, const Ray& ray) const;
   bool has_environment() const { return frame_.settings.environment != nullptr; }
@@ -100,6 +100,10 @@ class Tile {
   void add_levels(const Seen& seen, const Ray& ray, std::uint32_t first);
   template <class Function>
   void for_centres(const std::vector<Plan>& plans, const Function& f) const;
+  template <class Function>
+  void for_plans(const std::vector<Plan>& plans, const Function& f) const;
+  template <class Function>
+  void for_surfaces(std::uint32_t begin, std::uint32_t end, const Function& f) const;
   void shade_centres(const std::vector<Plan>& plans);
   void add_environment_light(const std::vector<Plan>& plans);
   void add_uniform_light(const std::vector<Plan>& plans);

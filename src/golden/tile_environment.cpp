@@ -8,6 +8,30 @@
 
 namespace sheen::golden {
 
+/// Calls f with each plan and the end of its samples.
+template <class Function>
+void Tile::for_plans(const std::vector<Plan>& plans, const Function& f) const {
+  for (std::size_t p = 0; p < plans.size(); ++p) {
+    f(plans[p], p + 1 < plans.size() ? plans[p + 1].centre : static_cast<std::uint32_t>(samples_.size()));
+  }
+}
+
+/// Calls f with every surface of the samples [begin, end) of a pixel, once, and its place among a sample's layers. They lie side by side.
+template <class Function>
+void Tile::for_surfaces(std::uint32_t begin, std::uint32_t end, const Function& f) const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+  for (std::uint32_t s = begin; s < end; ++s) {
+    for (std::uint32_t layer = 0; layer < samples_[s].count; ++layer) {
+      found.emplace_back(layers_[samples_[s].first + layer].surface, layer);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  for (const auto& [surface, layer] : found) {
+    f(surface, layer);
+  }
+}
+
 void Tile::add_environment_light(const std::vector<Plan>& plans) {
   const brdf::Rgb<double> zero{0, 0, 0};
   coarse_.assign(surfaces_.size(), zero);
@@ -20,16 +44,23 @@ void Tile::add_environment_light(const std::vector<Plan>& plans) {
   }
 }
 
+// Integrals are kept for one pixel, whose samples share them; other pixels hardly ever do.
 void Tile::add_uniform_light(const std::vector<Plan>& plans) {
   const glm::dvec3& radiance = frame_.settings.environment->uniform;
   UniformLight light(frame_.lighting(), {radiance.x, radiance.y, radiance.z});
   const auto shade = [&](std::uint32_t surface, albedo::Effort effort) {
     return light.shade(surfaces_[surface], frame_.reader.layers(materials_[surface]), effort);
   };
-  for (std::uint32_t surface = 0; frame_.settings.bounds && surface < surfaces_.size(); ++surface) {
-    coarse_[surface] = shade(surface, albedo::Effort::Fast);
-  }
-  for_centres(plans, [&](std::uint32_t surface) { refinement_[surface] = shade(surface, albedo::Effort::Full) + coarse_[surface] * -1.0; });
+  for_plans(plans, [&](const Plan& plan, std::uint32_t end) {
+    light.forget();
+    if (frame_.settings.bounds) {
+      for_surfaces(plan.centre, end,
+                   [&](std::uint32_t surface, std::uint32_t) { coarse_[surface] = shade(surface, albedo::Effort::Fast); });
+    }
+    for_surfaces(plan.centre, plan.centre + 1, [&](std::uint32_t surface, std::uint32_t) {
+      refinement_[surface] = shade(surface, albedo::Effort::Full) + coarse_[surface] * -1.0;
+    });
+  });
 }
 
 // Each pixel and layer has a stream of its own, wherever the tiles lie and whoever draws them.
@@ -38,20 +69,12 @@ std::uint64_t Tile::stream(const Plan& plan, std::uint32_t layer) {
 }
 
 void Tile::add_coarse_light(const std::vector<Plan>& plans, const ImageLighting& lighting) {
-  std::vector<bool> lit(surfaces_.size());  // samples of a pixel share surfaces
-  for (std::size_t p = 0; p < plans.size(); ++p) {
-    const std::uint32_t end = p + 1 < plans.size() ? plans[p + 1].centre : static_cast<std::uint32_t>(samples_.size());
-    for (std::uint32_t s = plans[p].centre; s < end; ++s) {
-      for (std::uint32_t layer = 0; layer < samples_[s].count; ++layer) {
-        const std::uint32_t surface = layers_[samples_[s].first + layer].surface;
-        if (!lit[surface]) {
-          lit[surface] = true;
-          coarse_[surface] =
-              coarse_environment(surfaces_[surface], frame_.reader.layers(materials_[surface]), lighting, stream(plans[p], layer), curves_);
-        }
-      }
-    }
-  }
+  for_plans(plans, [&](const Plan& plan, std::uint32_t end) {
+    for_surfaces(plan.centre, end, [&](std::uint32_t surface, std::uint32_t layer) {
+      coarse_[surface] =
+          coarse_environment(surfaces_[surface], frame_.reader.layers(materials_[surface]), lighting, stream(plan, layer), curves_);
+    });
+  });
 }
 
 // Of the channel where it is largest. A channel that is dark beside the others counts as a thousandth of them.

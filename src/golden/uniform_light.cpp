@@ -164,11 +164,11 @@ std::vector<double> scale_kinks(const SheenLayer<double>& sheen, double c) {
 UniformLight::UniformLight(const Lighting& lighting, const Color& radiance) : lighting_(lighting), radiance_(radiance) {}
 
 template <class Find>
-const BaseIntegrals& UniformLight::found(Of of, const std::array<double, 4>& numbers, albedo::Effort effort, const Find& find) {
+const BaseIntegrals& UniformLight::kept(Of of, const std::array<double, 4>& numbers, albedo::Effort effort, const Find& find) {
   Key key{static_cast<std::uint64_t>(of), static_cast<std::uint64_t>(effort)};
   std::transform(numbers.begin(), numbers.end(), key.begin() + 2, [](double x) { return std::bit_cast<std::uint64_t>(x); });
-  const auto place = found_.lower_bound(key);
-  return place != found_.end() && place->first == key ? place->second : found_.emplace_hint(place, key, find())->second;
+  const auto place = kept_.lower_bound(key);
+  return place != kept_.end() && place->first == key ? place->second : kept_.emplace_hint(place, key, find())->second;
 }
 
 Color UniformLight::shade(const Surface<double>& surface, Layers layers, albedo::Effort effort) {
@@ -181,7 +181,7 @@ Color UniformLight::shade(const Surface<double>& surface, Layers layers, albedo:
   const auto evenly = [&](double s) {
     const auto one = [](double) { return 1.0; };
     const BaseIntegrals& all =
-        found(Of::Base, {alpha, lobe.n_dot_v, 0, 0}, effort, [&] { return base_integrals(alpha, lobe.n_dot_v, one, {}, effort); });
+        kept(Of::Base, {alpha, lobe.n_dot_v, 0, 0}, effort, [&] { return base_integrals(alpha, lobe.n_dot_v, one, {}, effort); });
     return BaseIntegrals{s * all.diffuse, s * all.diffuse_w, s * all.specular, s * all.specular_w};
   };
 
@@ -194,8 +194,8 @@ Color UniformLight::shade(const Surface<double>& surface, Layers layers, albedo:
     if (sheen.two_directions()) {
       const double c = brdf::max3(surface.sheen_color);
       const auto scale = [&](double n_dot_l) { return sheen.scale(sheen.e_l(true, n_dot_l)); };
-      base = found(Of::BaseUnderSheen, {alpha, lobe.n_dot_v, c, surface.sheen_roughness}, effort,
-                   [&] { return base_integrals(alpha, lobe.n_dot_v, scale, scale_kinks(sheen, c), effort); });
+      base = kept(Of::BaseUnderSheen, {alpha, lobe.n_dot_v, c, surface.sheen_roughness}, effort,
+                  [&] { return base_integrals(alpha, lobe.n_dot_v, scale, scale_kinks(sheen, c), effort); });
     } else {
       base = evenly(sheen.scale(0.0));
     }
@@ -209,7 +209,7 @@ Color UniformLight::shade(const Surface<double>& surface, Layers layers, albedo:
   Color sum = (reflected * factors.base + sheen_light) * light * (1 - k);
   if (layers.clearcoat) {
     const auto reflected_by_coat = [&] { return BaseIntegrals{0, 0, 1 - albedo::ggx_loss(coat.n_dot_v, surface.coat_alpha), 0}; };
-    const BaseIntegrals& in = found(Of::Coat, {surface.coat_alpha, coat.n_dot_v, 0, 0}, albedo::Effort::Full, reflected_by_coat);
+    const BaseIntegrals& in = kept(Of::Coat, {surface.coat_alpha, coat.n_dot_v, 0, 0}, albedo::Effort::Full, reflected_by_coat);
     sum = sum + light * (k * factors.coat_lobe * in.specular);
   }
   return sum;

@@ -33,7 +33,7 @@ brdf::Rgb<double> base_light(const brdf::Base<double>& base, const BaseIntegrals
 /// is off):
 ///   L [ (1-k) (sheenColor E(N.V) + integral of s base N.L) + k integral of D_c Vis_c Nc.L ] occlusion,
 /// each lobe over its own normal's hemisphere. The base's Fresnel terms are affine in the colours, so four integrals serve every colour:
-/// they are kept, for as long as this is. One a thread.
+/// they are kept until forget(). One a thread.
 class UniformLight {
  public:
   /// @param radiance  from every direction
@@ -42,17 +42,19 @@ class UniformLight {
   /// @param effort  of base_integrals; Fast tells what a slightly different surface would send
   brdf::Rgb<double> shade(const Surface<double>& surface, Layers layers, albedo::Effort effort = albedo::Effort::Full);
 
+  void forget() { kept_.clear(); }
+
  private:
   enum class Of : unsigned char { Base, BaseUnderSheen, Coat };
   using Key = std::array<std::uint64_t, 6>;  // of what, how well, and the bits of the numbers it depends on
 
   template <class Find>
-  const BaseIntegrals& found(Of of, const std::array<double, 4>& numbers, albedo::Effort effort, const Find& find);
+  const BaseIntegrals& kept(Of of, const std::array<double, 4>& numbers, albedo::Effort effort, const Find& find);
 
   Lighting lighting_;
   CurveCache curves_;
   brdf::Rgb<double> radiance_;
-  std::map<Key, BaseIntegrals> found_;
+  std::map<Key, BaseIntegrals> kept_;
 };
 
 }  // namespace sheen::golden
