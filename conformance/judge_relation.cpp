@@ -74,7 +74,8 @@ void judge_by_goldens(const Relation& relation, const std::vector<image::Image>&
     if (shows_nothing(golden) && shows_nothing(pictures[i])) {
       continue;
     }
-    const VerdictRules rules = rules_of(relation.scenes[i], prepared[i], hello);
+    VerdictRules rules = rules_of(relation.scenes[i], prepared[i], hello);
+    rules.most_excluded = most_left_out;
     const Verdict verdict = judge(pictures[i], golden, rules);
     const bool passes = verdict.status == Status::Pass;
     if (!result.verdict || (result.status == Status::Pass && (!passes || verdict.bound_ratio > result.verdict->bound_ratio))) {
@@ -103,13 +104,12 @@ CaseResult judge_relation(const Relation& relation, const std::function<Drawing(
     if (!draw_scenes(relation, draw, images, result, pictures, prepared)) {
       return result;
     }
-    const bool by_goldens = prepared.size() == pictures.size();
-    if (by_goldens) {
-      judge_by_goldens(relation, pictures, prepared, hello, result);
-    }
-    if (!by_goldens) {
+    if (prepared.size() < pictures.size()) {
       judge_pictures(relation, pictures, hello, result);
-    } else if (relation.exact && first.precision != golden::Precision::Mediump && result.status == Status::Pass) {
+      return result;
+    }
+    judge_by_goldens(relation, pictures, prepared, hello, result);
+    if (relation.exact && first.precision != golden::Precision::Mediump && result.status == Status::Pass) {
       CaseResult to_the_bit = result;
       judge_pictures(relation, pictures, hello, to_the_bit);
       result = to_the_bit.status == Status::Pass ? result : to_the_bit;

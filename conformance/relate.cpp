@@ -16,9 +16,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// More than this share of the region left out, and the rest proves nothing.
-constexpr double most_left_out = 0.5;
-
 /// One channel of one pixel.
 struct Sample {
   double counted = 0;

@@ -8,6 +8,9 @@
 
 namespace sheen::conformance {
 
+/// More than this share of what is looked at left out, and the rest proves nothing.
+inline constexpr double most_left_out = 0.5;
+
 /// What is known of the viewer that drew the pictures.
 struct RelationRules {
   bool srgb8 = false;  ///< its pictures came as 8-bit sRGB codes: each holds every value within half a code, and nothing above 1

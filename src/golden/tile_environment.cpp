@@ -16,7 +16,7 @@ void Tile::for_plans(const std::vector<Plan>& plans, const Function& f) const {
   }
 }
 
-/// Calls f with every surface of the samples [begin, end) of a pixel, once, and its place among a sample's layers. They lie side by side.
+/// Calls f with every surface of the samples [begin, end) of a pixel, once, and its place among a sample's layers.
 template <class Function>
 void Tile::for_surfaces(std::uint32_t begin, std::uint32_t end, const Function& f) const {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
