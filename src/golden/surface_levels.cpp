@@ -12,7 +12,6 @@ namespace sheen::golden {
 
 namespace {
 
-constexpr double largest_angle = 0.01;                            // between the normals of two neighbours
 constexpr std::size_t centre = 4, right_of_it = 5, below_it = 7;  // of the 3 x 3 pixels
 constexpr int most_halvings = 10;  // of what lies between two corners: half a turn needs 9, if the map keeps its length
 
@@ -138,7 +137,7 @@ std::optional<LodInterval> SurfaceReader::lod_interval(const Hit& hit, const Ray
   return lod(s, hit, neighbourhood(hit, TriangleEdges(geometry_, rays_, hit.triangle).at(geometry_, ray))).allowed;
 }
 
-std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const {
+std::vector<double> SurfaceReader::levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot, double largest_angle) const {
   const std::optional<LodInterval> range = lod_interval(hit, ray, slot);
   if (!range || range->low == range->high) {
     return {};

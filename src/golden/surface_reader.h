@@ -100,10 +100,10 @@ class SurfaceReader {
   };
   Lod lod(const Slot& slot, const Hit& hit, const Neighbourhood& beside) const;
 
-  /// levels_within() for one texture at a hit; of a normal map corners_within() and as many more as leave no more than a hundredth of a
-  /// radian between the normals of two neighbours: a lobe may rise and fall again while a normal swings past it. Empty where no other level
-  /// than the ideal one is allowed.
-  std::vector<double> levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot) const;
+  /// levels_within() for one texture at a hit; of a normal map corners_within() and as many more as leave no more than that angle, in
+  /// radians, between the normals of two neighbours: a lobe may rise and fall again while a normal swings past it. Empty where no other
+  /// level than the ideal one is allowed.
+  std::vector<double> levels_to_try(const Hit& hit, const Ray& ray, std::size_t slot, double largest_angle) const;
 
   TextureReach texture_reach(const Hit& hit, const Ray& ray) const;
 

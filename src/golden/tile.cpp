@@ -12,6 +12,14 @@
 #include "golden/shade_all.h"
 
 namespace sheen::golden {
+namespace {
+
+// Between the normals of two levels that are tried, see SurfaceReader::levels_to_try. An image may have a sun; uniform light changes with
+// N.V alone.
+constexpr double largest_angle_under_image = 0.01, largest_angle_under_uniform_light = 0.04;
+
+}  // namespace
+
 Tile::Tile(const Frame& frame, const PixelBound* bound) : frame_(frame), bound_(bound) {
   if (bound != nullptr) {
     bounded_.emplace(*bound);
@@ -79,11 +87,12 @@ void Tile::add_sample_with_tie(Seen& seen, const Ray& ray) {
 // @param first  of the layers of `seen`, as they are without such a choice
 void Tile::add_levels(const Seen& seen, const Ray& ray, std::uint32_t first) {
   const std::uint32_t count = seen.layers();
+  const double largest_angle = frame_.environment ? largest_angle_under_image : largest_angle_under_uniform_light;
   std::uint32_t layer = 0;
   seen.for_layers([&](const Hit& hit) {
     const bool needed = frame_.reader.needs_lod(frame_.geometry.placed(hit.triangle).material_index);
     for (std::size_t slot = 0; needed && slot < SurfaceReader::slot_count; ++slot) {
-      const std::vector<double> levels = frame_.reader.levels_to_try(hit, ray, slot);
+      const std::vector<double> levels = frame_.reader.levels_to_try(hit, ray, slot, largest_angle);
       if (levels.empty()) {
         continue;
       }
