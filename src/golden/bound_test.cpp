@@ -8,6 +8,7 @@
 
 #include "golden/frame.h"
 #include "golden/test_scenes.h"
+#include "golden/uniform_light.h"
 
 namespace sheen::golden {
 namespace {
@@ -244,6 +245,34 @@ TEST(Bound, HoldsEveryTexelThatAMovedSampleMayMeet) {
       EXPECT_EQ(lit.at(4, 4, lit.channel("excluded")), too_far ? 3.0F : 0.0F) << tiles;
     }
   }
+}
+
+// At grazing angles our shader's one look-up of E is not the larger of two, under light from everywhere either.
+TEST(Bound, HoldsWhatASingleLookupMissesUnderAnEnvironment) {
+  scene::Primitive leaning = test::square(0.9);
+  for (glm::vec3& normal : leaning.normals) {
+    normal = glm::normalize(glm::vec3(1.0F, 0.0F, 0.001F));
+  }
+  scene::Material cloth = test::cloth(0.8);
+  cloth.sheen.color_factor = glm::dvec3(0.9);
+  cloth.metallic_factor = 1.0;
+  cloth.roughness_factor = 0.05;
+  const scene::Scene s = test::scene_with(leaning, cloth, test::orthographic_at(5.0, 1.0), {});
+  scene::Environment uniform;
+  uniform.uniform = glm::dvec3(1.0);
+  Settings settings = test::settings_for(8, 8, true);
+  settings.environment = &uniform;
+  const Frame frame(s, settings);
+  const Ray ray = frame.rays.through(4.5, 4.5);
+  Seen seen;
+  frame.tracer.trace(ray, false, seen);
+  ASSERT_TRUE(seen.nearest);
+  const double missed = UniformLight(frame.lighting(), {1.0, 1.0, 1.0}).lookup(frame.reader.surface(*seen.nearest, ray), {true, false}).g;
+  EXPECT_GT(missed, 0.02);
+  const image::Image golden = render(s, settings);
+  EXPECT_EQ(golden.at(4, 4, golden.channel("excluded")), 0.0F);
+  EXPECT_GE(golden.at(4, 4, golden.channel("bound.G")), missed);
+  EXPECT_LT(golden.at(4, 4, golden.channel("bound.G")), missed + 0.02);
 }
 
 TEST(Bound, HoldsTheRoundingOfLargeTextureCoordinates) {

@@ -59,6 +59,10 @@ void Tile::add_uniform_light(const std::vector<Plan>& plans) {
     }
     for_surfaces(plan.centre, plan.centre + 1, [&](std::uint32_t surface, std::uint32_t) {
       refinement_[surface] = shade(surface, albedo::Effort::Full) + coarse_[surface] * -1.0;
+      if (frame_.settings.bounds) {
+        brdf::Rgb<double>& lookup = shaded_[surface].lookup;
+        lookup = lookup + light.lookup(surfaces_[surface], frame_.reader.layers(materials_[surface]));
+      }
     });
   });
 }

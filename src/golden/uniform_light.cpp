@@ -143,18 +143,32 @@ Color base_light(const brdf::Base<double>& base, const BaseIntegrals& in) {
 
 namespace {
 
-// Where Lambda changes branch, and where c E(N.L) passes 1 and the scale's clamp sets in.
-std::vector<double> scale_kinks(const SheenLayer<double>& sheen, double c) {
+// Where Lambda changes branch, and where c E(N.L) passes 1 and the scale's clamp sets in; seen at grazing angles, on either side of E's
+// peak, and also where E ends and where E(N.L) passes E(N.V), of which the larger counts.
+std::vector<double> scale_kinks(const SheenLayer<double>& sheen, double c, double n_dot_v) {
   std::vector<double> kinks{0.5};
-  double low = albedo::min_n_dot_v;
-  double high = 1;
-  const auto clamped = [&](double n_dot_l) { return c * sheen.e_l(true, n_dot_l) > 1; };
-  if (clamped(low) && !clamped(high)) {
-    for (int i = 0; i < 50; ++i) {
+  const auto e = [&](double n_dot_l) { return sheen.e_l(true, n_dot_l); };
+  const auto add = [&](double low, double high, double level) {
+    const bool above = e(low) > level;
+    if (above == (e(high) > level)) {
+      return;
+    }
+    for (int i = 0; i < 40; ++i) {
       const double middle = 0.5 * (low + high);
-      (clamped(middle) ? low : high) = middle;
+      ((e(middle) > level) == above ? low : high) = middle;
     }
     kinks.push_back(low);
+  };
+  if (n_dot_v >= albedo::decreasing_from) {
+    add(albedo::min_n_dot_v, 1.0, 1 / c);
+    return kinks;
+  }
+  kinks.push_back(albedo::min_n_dot_v);
+  const albedo::Peak peak = albedo::peak_of(e, 8);
+  const double top = std::sqrt(peak.from * peak.to);
+  for (const double level : {1 / c, sheen.e_v()}) {
+    add(albedo::min_n_dot_v, top, level);
+    add(top, 1.0, level);
   }
   return kinks;
 }
@@ -169,6 +183,39 @@ const BaseIntegrals& UniformLight::kept(Of of, const std::array<double, 4>& numb
   std::transform(numbers.begin(), numbers.end(), key.begin() + 2, [](double x) { return std::bit_cast<std::uint64_t>(x); });
   const auto place = kept_.lower_bound(key);
   return place != kept_.end() && place->first == key ? place->second : kept_.emplace_hint(place, key, find())->second;
+}
+
+Color UniformLight::reflected(const Surface<double>& surface, double n_dot_v, const BaseIntegrals& in) const {
+  const Color light = lighting_.base_albedo.interpolant != nullptr
+                          ? PhysicalLayer<double>(surface.base, n_dot_v, lighting_.base_albedo).base.light(in.specular, in.specular_w)
+                          : base_light(surface.base, in);
+  return light * lighting_.factors.base;
+}
+
+Color UniformLight::lookup(const Surface<double>& surface, Layers layers) {
+  const Color none{0, 0, 0};
+  if (!layers.sheen) {
+    return none;
+  }
+  const LobeView<double> lobe(surface.normal, surface.view);
+  lighting_.albedo.curve = curves_.at(lighting_.albedo.interpolant, surface.sheen_roughness);
+  const SheenLayer<double> sheen(surface, lobe, lighting_);
+  // E rises to one peak and falls from there: if it is not below E(N.V) at the least cosine, it is nowhere below it on that side.
+  if (!sheen.two_directions() || !(sheen.e_l(true, albedo::min_n_dot_v) < sheen.e_v())) {
+    return none;
+  }
+  const auto missed = [&](double n_dot_l) {
+    const double e_l = sheen.e_l(true, n_dot_l);
+    return sheen.single_lookup_scale(n_dot_l, e_l) - sheen.scale(e_l);
+  };
+  const BaseIntegrals in = base_integrals(surface.base.alpha, lobe.n_dot_v, missed,
+                                          scale_kinks(sheen, brdf::max3(surface.sheen_color), lobe.n_dot_v), albedo::Effort::Fast);
+  double k = 0.0;
+  if (layers.clearcoat) {
+    const LobeView<double> coat(surface.coat_normal, surface.view);
+    k = brdf::clearcoat_weight(surface.clearcoat, coat.n_dot_v) * lighting_.factors.coat_weight;
+  }
+  return reflected(surface, lobe.n_dot_v, in) * radiance_ * (surface.occlusion * (1 - k));
 }
 
 Color UniformLight::shade(const Surface<double>& surface, Layers layers, albedo::Effort effort) {
@@ -195,18 +242,14 @@ Color UniformLight::shade(const Surface<double>& surface, Layers layers, albedo:
       const double c = brdf::max3(surface.sheen_color);
       const auto scale = [&](double n_dot_l) { return sheen.scale(sheen.e_l(true, n_dot_l)); };
       base = kept(Of::BaseUnderSheen, {alpha, lobe.n_dot_v, c, surface.sheen_roughness}, effort,
-                  [&] { return base_integrals(alpha, lobe.n_dot_v, scale, scale_kinks(sheen, c), effort); });
+                  [&] { return base_integrals(alpha, lobe.n_dot_v, scale, scale_kinks(sheen, c, lobe.n_dot_v), effort); });
     } else {
       base = evenly(sheen.scale(0.0));
     }
   } else {
     base = evenly(1.0);
   }
-  const Color reflected =
-      lighting_.base_albedo.interpolant != nullptr
-          ? PhysicalLayer<double>(surface.base, lobe.n_dot_v, lighting_.base_albedo).base.light(base.specular, base.specular_w)
-          : base_light(surface.base, base);
-  Color sum = (reflected * factors.base + sheen_light) * light * (1 - k);
+  Color sum = (reflected(surface, lobe.n_dot_v, base) + sheen_light) * light * (1 - k);
   if (layers.clearcoat) {
     const auto reflected_by_coat = [&] { return BaseIntegrals{0, 0, 1 - albedo::ggx_loss(coat.n_dot_v, surface.coat_alpha), 0}; };
     const BaseIntegrals& in = kept(Of::Coat, {surface.coat_alpha, coat.n_dot_v, 0, 0}, albedo::Effort::Full, reflected_by_coat);

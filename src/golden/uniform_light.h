@@ -42,11 +42,17 @@ class UniformLight {
   /// @param effort  of base_integrals; Fast tells what a slightly different surface would send
   brdf::Rgb<double> shade(const Surface<double>& surface, Layers layers, albedo::Effort effort = albedo::Effort::Full);
 
+  /// What a shader that reads E once, at the smaller cosine, may add to that: see SheenLayer::single_lookup_scale. By Fast.
+  brdf::Rgb<double> lookup(const Surface<double>& surface, Layers layers);
+
   void forget() { kept_.clear(); }
 
  private:
   enum class Of : unsigned char { Base, BaseUnderSheen, Coat };
   using Key = std::array<std::uint64_t, 6>;  // of what, how well, and the bits of the numbers it depends on
+
+  /// Of integrals, what the base sends.
+  brdf::Rgb<double> reflected(const Surface<double>& surface, double n_dot_v, const BaseIntegrals& in) const;
 
   template <class Find>
   const BaseIntegrals& kept(Of of, const std::array<double, 4>& numbers, albedo::Effort effort, const Find& find);

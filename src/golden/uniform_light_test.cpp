@@ -206,6 +206,46 @@ TEST(UniformLight, KeptIntegralsAreThoseOfTheSurface) {
   }
 }
 
+// Below the peak of E, at a cosine of some thousandths, E(min(N.V, N.L)) is less than the larger of both.
+TEST(UniformLight, AtGrazingAnglesKnowsTheScaleAndWhatASingleLookupMisses) {
+  const albedo::Interpolant interpolant(albedo::Visibility::Charlie);
+  const double r = 0.8;
+  const double c = 0.9;
+  Surface<double> surface = white_lambert(1.2e-3);
+  surface.base.alpha = 0.05;
+  surface.base.metallic = 1.0;
+  surface.sheen_color = {c, c, c};
+  surface.sheen_roughness = r;
+  Lighting lighting;
+  lighting.sheen = {albedo::Visibility::Charlie, brdf::AlbedoScaling::Full};
+  lighting.albedo.interpolant = &interpolant;
+  std::vector<double> everywhere;
+  for (double kink = 1e-4; kink < 0.3; kink *= 1.1) {
+    everywhere.push_back(kink);
+  }
+  const auto furnace_of = [&](auto scale) { return base_integrals(surface.base.alpha, 1.2e-3, scale, everywhere).specular; };
+  const double e_v = interpolant(1.2e-3, r);
+  const double larger = furnace_of([&](double l) { return std::clamp(1.0 - c * std::max(e_v, interpolant(l, r)), 0.0, 1.0); });
+  const double single = furnace_of([&](double l) { return std::clamp(1.0 - c * interpolant(std::min(l, 1.2e-3), r), 0.0, 1.0); });
+  UniformLight light(lighting, {1.0, 1.0, 1.0});
+  ASSERT_GT(single, larger * 1.001);
+  const Color sheen = surface.sheen_color * e_v;
+  EXPECT_NEAR(light.shade(surface, {true, false}).g, larger + sheen.g, 2e-6) << "E(N.L) falls back to E(N.V) at a cosine of its own";
+  EXPECT_NEAR(light.lookup(surface, {true, false}).g, single - larger, 0.02 * (single - larger));
+  const Surface<double> steep = [&] {
+    Surface<double> s = surface;
+    s.view = {0.8, 0.0, 0.6};
+    return s;
+  }();
+  EXPECT_EQ(light.lookup(steep, {true, false}).g, 0.0) << "there E falls";
+  EXPECT_EQ(light.lookup(surface, {false, false}).g, 0.0) << "without sheen nothing is looked up";
+  surface.occlusion = 0.5;
+  surface.clearcoat = 1.0;
+  surface.coat_normal = {1.0, 0.0, 0.0};
+  const double k = 0.04 + 0.96 * std::pow(1.0 - surface.view.x, 5.0);
+  EXPECT_NEAR(light.lookup(surface, {true, true}).g, 0.5 * (1.0 - k) * (single - larger), 0.02 * (single - larger));
+}
+
 TEST(UniformLight, CoatLiesAboveAndOcclusionDimsAll) {
   Surface<double> surface = white_lambert(0.7);
   surface.clearcoat = 0.8;
