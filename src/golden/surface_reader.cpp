@@ -277,16 +277,17 @@ glm::dvec3 SurfaceReader::mapped_normal(const Hit& hit, const Ray& ray, LodChoic
 }
 
 // What one texture decides, whether it is there or not.
-void SurfaceReader::fill(Surface<double>& s, std::size_t slot, const Hit& hit, const Footprint& f) const {
+// @param normal  the interpolated one
+void SurfaceReader::fill(Surface<double>& s, std::size_t slot, const glm::dvec3& normal, const Hit& hit, const Footprint& f) const {
   const Placed& placed = geometry_.placed(hit.triangle);
   const Material& m = materials_[static_cast<std::size_t>(placed.material_index)];
   const scene::Material& source = *m.source;
   const auto square = [](double x) { return x * x; };
   const double side = hit.front ? 1.0 : -1.0;
   if (&slot_of(m, slot) == &m.normal) {
-    s.normal = vec3(mapped_normal(m.normal, source.normal_scale, interpolated_normal(hit), hit, f) * side);
+    s.normal = vec3(mapped_normal(m.normal, source.normal_scale, normal, hit, f) * side);
   } else if (&slot_of(m, slot) == &m.clearcoat_normal) {
-    s.coat_normal = vec3(mapped_normal(m.clearcoat_normal, source.clearcoat.normal_scale, interpolated_normal(hit), hit, f) * side);
+    s.coat_normal = vec3(mapped_normal(m.clearcoat_normal, source.clearcoat.normal_scale, normal, hit, f) * side);
   } else if (&slot_of(m, slot) == &m.base_color) {
     glm::dvec3 color = glm::dvec3(source.base_color_factor) * glm::dvec3(read(m.base_color, hit, f));
     if (!placed.primitive->colors.empty()) {
@@ -322,8 +323,9 @@ Surface<double> SurfaceReader::surface(const Hit& hit, const Ray& ray, LodChoice
   Surface<double> s{};
   s.position = vec3(interpolate<glm::dvec3>(geometry_.positions(), geometry_.vertices(hit.triangle), hit.weights));
   s.view = vec3(rays_.toward_camera(ray));
+  const glm::dvec3 normal = interpolated_normal(hit);
   for (std::size_t slot = 0; slot < slot_count; ++slot) {
-    fill(s, slot, hit, f);
+    fill(s, slot, normal, hit, f);
   }
   if (m.layers.sheen && model_ == brdf::Model::Draft2019) {
     s.sheen_color = brdf::draft_sheen_color(s.sheen_color, s.base.color, s.base.metallic);
@@ -342,7 +344,7 @@ Surface<double> SurfaceReader::varied(const Surface<double>& usual, const Hit& h
   f.varied = &slot_of(materials_[static_cast<std::size_t>(geometry_.placed(hit.triangle).material_index)], lod.slot);
   f.level = *lod.level;
   Surface<double> s = usual;
-  fill(s, lod.slot, hit, f);
+  fill(s, lod.slot, interpolated_normal(hit), hit, f);
   return s;
 }
 

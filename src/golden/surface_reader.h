@@ -135,7 +135,7 @@ class SurfaceReader {
   glm::dvec3 mapped_normal(const Hit& hit, const Ray& ray, LodChoice lod) const;
   glm::dvec3 interpolated_normal(const Hit& hit) const;
   Footprint footprint(const Hit& hit, const Ray& ray, LodChoice lod) const;
-  void fill(Surface<double>& s, std::size_t slot, const Hit& hit, const Footprint& f) const;
+  void fill(Surface<double>& s, std::size_t slot, const glm::dvec3& normal, const Hit& hit, const Footprint& f) const;
 
   const Geometry& geometry_;
   const RayGenerator& rays_;
