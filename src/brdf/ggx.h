@@ -8,13 +8,16 @@ namespace sheen::brdf {
 inline constexpr double mirror_alpha = 1e-9;
 
 /// GGX (Trowbridge-Reitz) distribution in 1/sr, glTF 2.0 Appendix B.3.2, in the form k^2/pi with k = alpha / (|NxH|^2 + alpha^2 (N.H)^2):
-/// the printed (N.H)^2 (alpha^2 - 1) + 1 cancels near N.H = 1. A mirror gives punctual lights no highlight: 0.
+/// the printed (N.H)^2 (alpha^2 - 1) + 1 cancels near N.H = 1. A mirror gives punctual lights no highlight: 0. Of one angle's sine and
+/// cosine the divisor is never below alpha^2; half of it is said in so many words, for number types that hold the two apart, where the half
+/// vector may have any direction.
 /// @param alpha     square of roughness, [0, 1]
 /// @param n_dot_h, sin2_theta_h  cosine and squared sine |N x H|^2 of the half vector's angle, [0, 1]
 template <class Real>
 Real ggx_distribution(Real alpha, Real n_dot_h, Real sin2_theta_h) {
   const auto distribution = [&] {
-    const Real k = alpha / (sin2_theta_h + alpha * alpha * n_dot_h * n_dot_h);
+    const Real a2 = alpha * alpha;
+    const Real k = alpha / max(sin2_theta_h + a2 * n_dot_h * n_dot_h, a2 * Real(0.5));
     return Real(k * k * Real(1 / pi));
   };
   return select_of(alpha > Real(mirror_alpha), distribution, [] { return Real(0); });

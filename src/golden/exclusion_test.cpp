@@ -1,5 +1,6 @@
 // Which pixels a golden leaves out of verdicts, and why.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -152,6 +153,19 @@ TEST(Exclusion, ASliverOnTheEdgeOfWhatItLiesOnIsFoundWhicheverComesFirst) {
     test::add(s, first ? sheet : sliver, material);
     EXPECT_EQ(excluded(s, 1.0F), 1) << first;
   }
+}
+
+TEST(Exclusion, ALightOppositeToTheViewWhoseHalfVectorMayHaveAnyDirection) {
+  // Lit and seen along the surface, from either side: N.L and N.V are 0 but for roundings, and so is L + V.
+  scene::Primitive p = test::square(2.0);
+  std::fill(p.normals.begin(), p.normals.end(), glm::vec3(1.0F, 0.0F, 0.0F));
+  scene::Material coated = test::lambertian({0.5, 0.5, 0.5, 1.0});
+  coated.roughness_factor = 0.5;
+  coated.clearcoat.factor = 1.0;
+  coated.clearcoat.roughness_factor = 0.3;
+  coated.double_sided = true;
+  const scene::Scene s = test::scene_with(p, coated, test::orthographic_at(5.0, 1.0), {test::directional({1e-8, 0.0, -1.0})});
+  EXPECT_EQ(excluded(s, 4.0F), 0) << "GGX is never above 1 / (pi alpha^2)";
 }
 
 TEST(Exclusion, ATriangleOfTwoCornersIsNothing) {
