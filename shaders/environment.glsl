@@ -15,8 +15,9 @@ vec4 environment_part(ivec2 origin, ivec2 size, vec3 direction) {
     return texture_bilinear(u_environment, equirect_coordinates(direction), origin, size, WRAP_REPEAT, WRAP_CLAMP_TO_EDGE);
 }
 
-// What arrives from a unit direction of view space.
-vec3 environment_radiance(vec3 direction) {
-    return environment_part(ivec2(0), u_environment_size, u_environment_from_view * direction).rgb;
-}
+// What the image holds in a unit direction of view space.
+vec4 environment_texel(vec3 direction) { return environment_part(ivec2(0), u_environment_size, u_environment_from_view * direction); }
+
+// What arrives from there.
+vec3 environment_radiance(vec3 direction) { return environment_texel(direction).rgb; }
 #endif

@@ -2,7 +2,8 @@
 // (Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2). It converges to the integral:
 //   sum over directions of f cos(theta) L_env / (sum over ways to draw of count * density)
 
-// In rows by turns: points of the unit square in r, g; directions of the image in r, g, b, drawn in proportion to its radiance.
+// In rows by turns: points of the unit square, as x and the cosine and sine of 2 pi y; directions of the image, drawn in proportion to its
+// radiance, with their density.
 uniform sampler2D u_environment_points;
 // Directions to draw, all ways together; but each way draws at least one.
 uniform int u_environment_samples;
@@ -14,15 +15,17 @@ const highp float SMALLEST_DRAWN_SHEEN_ROUGHNESS = 1e-3;
 // each has its least share; that and the sheen's were found by the error of 4,096 directions under two skies, on 13 materials.
 const float SMALLEST_WEIGHT = 0.05;
 const float WEIGHT_OF_WHITE_SHEEN = 0.15;
+const float WEIGHT_OF_SPHERE = 0.01;
 
 // Ways to draw a direction.
-const int DRAW_COSINE = 0;
-const int DRAW_GGX = 1;
+const int DRAW_SPHERE = 0;
+const int DRAW_COSINE = 1;
+const int DRAW_GGX = 2;
 #ifdef CLEARCOAT
-const int DRAW_COAT = 2;
-#define DRAWS_WITH_COAT 3
+const int DRAW_COAT = 3;
+#define DRAWS_WITH_COAT 4
 #else
-#define DRAWS_WITH_COAT 2
+#define DRAWS_WITH_COAT 3
 #endif
 #ifdef SHEEN
 const int DRAW_SHEEN = DRAWS_WITH_COAT;
@@ -48,43 +51,37 @@ mat3 frame_around(vec3 N) {
 
 vec3 mirrored_at(vec3 H, vec3 V) { return normalize(2.0 * dot(V, H) * H - V); }
 
-vec3 draw_cosine(LayerView view, vec2 u) {
-    float phi = 2.0 * PI * u.y;
-    return frame_around(view.N) * vec3(sqrt(u.x) * vec2(cos(phi), sin(phi)), sqrt(max(1.0 - u.x, 0.0)));
-}
+// Everywhere alike, so that no direction's share of the light is divided by next to nothing.
+vec3 draw_sphere(vec3 p) { return vec3(2.0 * sqrt(p.x * (1.0 - p.x)) * p.yz, 1.0 - 2.0 * p.x); }
 
-// Heitz 2018, "Sampling the GGX Distribution of Visible Normals", listing 1.
-vec3 draw_ggx(LayerView view, float alpha, vec2 u) {
+vec3 draw_cosine(LayerView view, vec3 p) { return frame_around(view.N) * vec3(sqrt(p.x) * p.yz, sqrt(1.0 - p.x)); }
+
+// Normals that the view direction sees (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"), by a cap of the sphere around it
+// (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps", listing 3).
+vec3 draw_ggx(LayerView view, float alpha, vec3 p) {
     mat3 frame = frame_around(view.N);
     vec3 v = view.V * frame;
-    vec3 Vh = normalize(vec3(alpha * v.xy, max(v.z, MIN_N_DOT_V)));
-    float across = dot(Vh.xy, Vh.xy);
-    vec3 T1 = across > 0.0 ? vec3(-Vh.y, Vh.x, 0.0) * inversesqrt(across) : vec3(1.0, 0.0, 0.0);
-    vec3 T2 = cross(Vh, T1);
-    float r = sqrt(u.x);
-    float phi = 2.0 * PI * u.y;
-    float t1 = r * cos(phi);
-    float s = 0.5 * (1.0 + Vh.z);
-    float t2 = (1.0 - s) * sqrt(max(1.0 - t1 * t1, 0.0)) + s * r * sin(phi);
-    vec3 Nh = t1 * T1 + t2 * T2 + sqrt(max(1.0 - t1 * t1 - t2 * t2, 0.0)) * Vh;
-    return mirrored_at(frame * normalize(vec3(alpha * Nh.xy, max(Nh.z, 0.0))), view.V);
+    vec3 stretched = normalize(vec3(alpha * v.xy, max(v.z, MIN_N_DOT_V)));
+    float below = p.x * (1.0 + stretched.z); // 1 - z of the point of the cap
+    float r = sqrt(max(below * (2.0 - below), 1e-20));
+    vec3 h = vec3(r * p.yz + stretched.xy, (1.0 - p.x) * (1.0 + stretched.z));
+    return mirrored_at(frame * normalize(vec3(alpha * h.xy, h.z)), view.V);
 }
 
 // Densities over solid angle, 1/sr. A half vector H is drawn with D_visible(H) = D G1 V.H / N.V, a direction with a quarter of it over V.H.
 float density_ggx(LayerView view, float alpha, vec3 L) {
     vec3 H = normalize_or(L + view.V, view.N);
     float a2 = alpha * alpha;
-    float G1 = 2.0 * view.NdotV / (view.NdotV + sqrt(a2 + (1.0 - a2) * view.NdotV * view.NdotV));
-    return D_GGX(view.N, H, alpha) * G1 / (4.0 * view.NdotV);
+    float G1_over_4NdotV = 0.5 / (view.NdotV + sqrt(a2 + (1.0 - a2) * view.NdotV * view.NdotV));
+    return D_GGX(view.N, H, alpha) * G1_over_4NdotV;
 }
 
 #ifdef SHEEN
 // D cos(theta_h) integrates to sin^(2 + 1/alpha_g) up to theta_h, hence to 1.
-vec3 draw_sheen(LayerView view, float sheenRoughness, vec2 u) {
+vec3 draw_sheen(LayerView view, float sheenRoughness, vec3 p) {
     float exponent = 1.0 / (sheenRoughness * sheenRoughness);
-    float sine = exp2(log2(max(u.x, 1e-30)) / (exponent + 2.0));
-    float phi = 2.0 * PI * u.y;
-    vec3 H = frame_around(view.N) * vec3(sine * vec2(cos(phi), sin(phi)), sqrt(max(1.0 - sine * sine, 0.0)));
+    float sine = exp2(log2(p.x) / (exponent + 2.0));
+    vec3 H = frame_around(view.N) * vec3(sine * p.yz, sqrt(max(1.0 - sine * sine, 1e-12)));
     return mirrored_at(H, view.V);
 }
 
@@ -94,28 +91,32 @@ float density_sheen(LayerView view, float sheenRoughness, vec3 L) {
 }
 
 // Seen from above, half vectors send nearly every light below the horizon. There D is ((1 - N.L) / 2)^p, p = 1 / (2 alpha_g): that is drawn.
-vec3 draw_rim(LayerView view, float sheenRoughness, vec2 u) {
-    float p = 0.5 / (sheenRoughness * sheenRoughness);
-    float below = exp2(log2(max(1.0 - u.x, 1e-30)) / (p + 1.0)); // 1 - N.L
-    float phi = 2.0 * PI * u.y;
-    return frame_around(view.N) * vec3(sqrt(below * (2.0 - below)) * vec2(cos(phi), sin(phi)), 1.0 - below);
+vec3 draw_rim(LayerView view, float sheenRoughness, vec3 p) {
+    float power = 0.5 / (sheenRoughness * sheenRoughness);
+    float below = exp2(log2(1.0 - p.x) / (power + 1.0)); // 1 - N.L
+    return frame_around(view.N) * vec3(sqrt(below * (2.0 - below)) * p.yz, 1.0 - below);
 }
 
 float density_rim(LayerView view, float sheenRoughness, vec3 L) {
-    float p = 0.5 / (sheenRoughness * sheenRoughness);
+    float power = 0.5 / (sheenRoughness * sheenRoughness);
     float NdotL = dot(view.N, L);
-    return NdotL > 0.0 ? (p + 1.0) * exp2(p * log2(max(1.0 - NdotL, 1e-30))) / (2.0 * PI) : 0.0;
+    return NdotL > 0.0 ? (power + 1.0) * exp2(power * log2(max(1.0 - NdotL, 1e-30))) / (2.0 * PI) : 0.0;
 }
 #endif
 
 #ifdef ENVIRONMENT_IMAGE
-// The image's texel holds its share of all directions drawn, over the texel's share of (u, v), by 2 pi^2.
+// The image's texels hold their share of all directions drawn, over the texel's share of (u, v), by 2 pi^2.
 float density_image(vec3 L) {
     vec3 d = u_environment_from_view * L;
-    ivec2 texel = clamp(ivec2(equirect_coordinates(d) * vec2(u_environment_size)), ivec2(0), u_environment_size - 1);
-    return texelFetch(u_environment, texel, 0).a * inversesqrt(max(1.0 - d.y * d.y, 1e-12));
+    return environment_texel(L).a * inversesqrt(max(dot(d.xz, d.xz), 1e-12));
 }
 #endif
+
+// A direction, and the density with which the image draws it, where there is one.
+struct Drawn {
+    vec3 L;
+    float image_density;
+};
 
 // Whether a direction is drawn in that way.
 bool draws(Surface surface, int way) {
@@ -129,22 +130,34 @@ bool draws(Surface surface, int way) {
     return true;
 }
 
-vec3 drawn_direction(Surface surface, int way, int i) {
-    int width = textureSize(u_environment_points, 0).x;
-    ivec2 place = ivec2(i % width, 2 * (i / width));
-    vec2 u = texelFetch(u_environment_points, place, 0).xy;
+vec3 direction_of_lobe(Surface surface, int way, vec3 p) {
 #ifdef CLEARCOAT
-    if (way == DRAW_COAT) return draw_ggx(surface.coat_view, surface.clearcoat_alpha, u);
+    if (way == DRAW_COAT) return draw_ggx(surface.coat_view, surface.clearcoat_alpha, p);
 #endif
 #ifdef SHEEN
-    if (way == DRAW_SHEEN) return draw_sheen(surface.view, surface.sheen.sheenRoughness, u);
-    if (way == DRAW_RIM) return draw_rim(surface.view, surface.sheen.sheenRoughness, u);
+    if (way == DRAW_SHEEN) return draw_sheen(surface.view, surface.sheen.sheenRoughness, p);
+    if (way == DRAW_RIM) return draw_rim(surface.view, surface.sheen.sheenRoughness, p);
 #endif
+    if (way == DRAW_SPHERE) return draw_sphere(p);
+    if (way == DRAW_GGX) return draw_ggx(surface.view, surface.base.alpha, p);
+    return draw_cosine(surface.view, p);
+}
+
+Drawn drawn_direction(Surface surface, int way, int i) {
+    int width = textureSize(u_environment_points, 0).x;
+    ivec2 place = ivec2(i % width, 2 * (i / width));
 #ifdef ENVIRONMENT_IMAGE
-    if (way == DRAW_IMAGE) return texelFetch(u_environment_points, place + ivec2(0, 1), 0).xyz * u_environment_from_view;
+    if (way == DRAW_IMAGE) {
+        vec4 drawn = texelFetch(u_environment_points, place + ivec2(0, 1), 0);
+        return Drawn(drawn.xyz * u_environment_from_view, drawn.w);
+    }
 #endif
-    if (way == DRAW_GGX) return draw_ggx(surface.view, surface.base.alpha, u);
-    return draw_cosine(surface.view, u);
+    vec3 L = direction_of_lobe(surface, way, texelFetch(u_environment_points, place, 0).xyz);
+#ifdef ENVIRONMENT_IMAGE
+    return Drawn(L, density_image(L));
+#else
+    return Drawn(L, 0.0);
+#endif
 }
 
 // What a lobe reflects of light from everywhere, about, below 1.
@@ -167,6 +180,7 @@ int[DRAWS] directions_by_way(Surface surface) {
     float sum = 0.0;
     for (int way = 0; way < DRAWS; ++way) {
         weights[way] = draws(surface, way) ? max(weight(surface, way), SMALLEST_WEIGHT) : 0.0;
+        if (way == DRAW_SPHERE) weights[way] = WEIGHT_OF_SPHERE;
 #ifdef ENVIRONMENT_IMAGE
         if (way == DRAW_IMAGE) weights[way] = sum;
 #endif
@@ -180,8 +194,9 @@ int[DRAWS] directions_by_way(Surface surface) {
 }
 
 // The sum of the densities of all ways, each as many times as it is drawn from.
-float density_of_all(Surface surface, vec3 L, int counts[DRAWS]) {
-    float sum = float(counts[DRAW_COSINE]) * max(dot(surface.view.N, L), 0.0) / PI;
+float density_of_all(Surface surface, Drawn drawn, int counts[DRAWS]) {
+    vec3 L = drawn.L;
+    float sum = float(counts[DRAW_SPHERE]) * (0.25 * INV_PI) + float(counts[DRAW_COSINE]) * max(dot(surface.view.N, L), 0.0) * INV_PI;
     if (counts[DRAW_GGX] > 0) sum += float(counts[DRAW_GGX]) * density_ggx(surface.view, surface.base.alpha, L);
 #ifdef CLEARCOAT
     if (counts[DRAW_COAT] > 0) sum += float(counts[DRAW_COAT]) * density_ggx(surface.coat_view, surface.clearcoat_alpha, L);
@@ -193,7 +208,7 @@ float density_of_all(Surface surface, vec3 L, int counts[DRAWS]) {
     }
 #endif
 #ifdef ENVIRONMENT_IMAGE
-    sum += float(counts[DRAW_IMAGE]) * density_image(L);
+    sum += float(counts[DRAW_IMAGE]) * drawn.image_density;
 #endif
     return sum;
 }
@@ -201,21 +216,24 @@ float density_of_all(Surface surface, vec3 L, int counts[DRAWS]) {
 vec3 environment_light(Surface surface) {
     vec3 radiance = vec3(0.0);
     int counts[DRAWS] = directions_by_way(surface);
-    int turns = DRAWS;
+    int turns = DRAWS - 1;
     for (int way = 0; way < DRAWS; ++way) turns += counts[way];
+    // Each way has points of its own, the next of the sequence.
     // One loop over all ways, since Mesa's llvmpipe ends the loops of a shader after 65,535 turns in all, and pixels that are drawn together
     // take as many as the one that takes the most: of one way in one, of another in another.
     int way = 0;
-    int i = 0;
+    int point = 0;
+    int end = counts[0];
     for (int turn = 0; turn < turns; ++turn) {
-        if (i == counts[way]) {
+        if (point == end) {
             ++way;
-            i = 0;
+            end += counts[way];
         } else {
-            vec3 L = drawn_direction(surface, way, i);
-            float density = density_of_all(surface, L, counts);
+            Drawn drawn = drawn_direction(surface, way, point);
+            vec3 L = drawn.L;
+            float density = density_of_all(surface, drawn, counts);
             if (density > 0.0) radiance += reflected_light(surface, L) * environment_radiance(L) / density;
-            ++i;
+            ++point;
         }
     }
 

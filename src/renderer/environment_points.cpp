@@ -21,10 +21,16 @@ double radical_inverse(std::uint32_t index, std::uint32_t base) {
   return value;
 }
 
-// A number in [0, 1) for each seed and axis: the fractional parts of multiples of two irrational numbers. None for seed 0.
-double shift(std::uint64_t seed, double irrational) {
-  const double turns = static_cast<double>(seed % 1000003) * irrational;
-  return turns - std::floor(turns);
+// A number in [0, 1) for each seed and axis, 0 or 1, those of different seeds as if at random: SplitMix64's finalizer (Steele et al. 2014,
+// "Fast Splittable Pseudorandom Number Generators"). None for seed 0.
+double shift(std::uint64_t seed, std::uint64_t axis) {
+  if (seed == 0) {
+    return 0.0;
+  }
+  std::uint64_t z = (2 * seed + axis) * 0x9E3779B97F4A7C15u;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return std::ldexp(static_cast<double>((z ^ (z >> 31)) >> 11), -53);
 }
 
 // A split of an interval at a share of its weight: whether x in [0, 1) falls into the first part, and where inside its part it lies.
@@ -34,8 +40,24 @@ bool in_first_part(double share, double& x) {
   return first;
 }
 
+// Where under the tent of a texel, which falls from its centre to those of its neighbours, a number in [0, 1) lies: from the centre.
+double under_tent(double x) {
+  return x < 0.5 ? std::sqrt(2.0 * x) - 1.0 : 1.0 - std::sqrt(2.0 - 2.0 * x);
+}
+
+// The same of a row in [0, rows), from the top: the outer half of the first and of the last has but its own.
+double under_tent_of_row(int row, int rows, double x) {
+  const bool own = (row == 0 && x < 0.5) || (row == rows - 1 && x >= 0.5);
+  return row + (own ? x : 0.5 + under_tent(x));
+}
+
 double around(double x) {
   return std::min(x - std::floor(x), 1.0 - 1e-12);
+}
+
+// The float in (0, 1) that a shader gets of it: neither it nor what it leaves of 1 is 0.
+float inside(double x) {
+  return static_cast<float>(std::clamp(x, 0x1p-32, 1.0 - 0x1p-24));
 }
 
 }  // namespace
@@ -47,7 +69,6 @@ ImageSampling::ImageSampling(const scene::Environment& environment) : width_(env
     const glm::vec3& texel = environment.texels[y * w + x];
     return static_cast<double>(texel.x) + static_cast<double>(texel.y) + static_cast<double>(texel.z);
   };
-  // The filter reaches into the neighbours, so they count: 1 2 1 along each axis. Where there is no light at all, none is missed.
   std::vector<double> weights;
   weights.reserve(w * h);
   sums_.assign((w + 1) * (h + 1), 0.0);
@@ -55,12 +76,8 @@ ImageSampling::ImageSampling(const scene::Environment& environment) : width_(env
     const double sine = std::sin(std::numbers::pi * (static_cast<double>(y) + 0.5) / static_cast<double>(h));
     double row_sum = 0.0;
     for (std::size_t x = 0; x < w; ++x) {
-      double sum = 0.0;
-      for (const std::size_t row : {y == 0 ? 0 : y - 1, y, y, y + 1 == h ? y : y + 1}) {
-        sum += brightness((x + w - 1) % w, row) + 2.0 * brightness(x, row) + brightness((x + 1) % w, row);
-      }
-      weights.push_back(sum * sine);
-      row_sum += sum * sine;
+      weights.push_back(brightness(x, y) * sine);
+      row_sum += weights.back();
       sums_[(y + 1) * (w + 1) + x + 1] = sums_[y * (w + 1) + x + 1] + row_sum;
     }
   }
@@ -81,7 +98,7 @@ double ImageSampling::weight(int left, int top, int right, int bottom) const {
   return (before(right, bottom) - before(left, bottom)) - (before(right, top) - before(left, top));
 }
 
-glm::dvec3 ImageSampling::direction(double u, double v) const {
+ImageSampling::Drawn ImageSampling::draw(double u, double v) const {
   int left = 0;
   int top = 0;
   int right = width_;
@@ -101,7 +118,26 @@ glm::dvec3 ImageSampling::direction(double u, double v) const {
     (in_first_part(share, by_columns ? u : v) ? end : begin) = middle;
   }
   const scene::Environment upright;
-  return upright.direction({(static_cast<double>(left) + u) / width_, (static_cast<double>(top) + v) / height_});
+  const double x = left + 0.5 + under_tent(u);
+  const double y = under_tent_of_row(top, height_, v);
+  const glm::dvec3 direction = upright.direction({x / width_, y / height_});
+  // As the shader has it of any direction, which does not come nearer to a pole.
+  return {direction, density_at(x, y) / std::max(std::sin(std::numbers::pi * y / height_), 1e-6)};
+}
+
+double ImageSampling::density_at(double x, double y) const {
+  const double left = std::floor(x - 0.5);
+  const double top = std::floor(y - 0.5);
+  const auto texel = [&](double column, double row) {
+    const int i = (static_cast<int>(column) + width_) % width_;
+    const int j = std::clamp(static_cast<int>(row), 0, height_ - 1);
+    return static_cast<double>(densities_[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)]);
+  };
+  const double across = x - 0.5 - left;
+  const double down = y - 0.5 - top;
+  const double upper = (1.0 - across) * texel(left, top) + across * texel(left + 1.0, top);
+  const double lower = (1.0 - across) * texel(left, top + 1.0) + across * texel(left + 1.0, top + 1.0);
+  return (1.0 - down) * upper + down * lower;
 }
 
 PointRows point_rows(int count, std::uint64_t seed, const ImageSampling* image) {
@@ -111,12 +147,13 @@ PointRows point_rows(int count, std::uint64_t seed, const ImageSampling* image) 
   out.rows = 2 * pairs;
   out.texels.assign(static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows), glm::vec4(0.0F));
   for (int i = 0; i < pairs * out.columns; ++i) {
-    const double u = around(radical_inverse(static_cast<std::uint32_t>(i + 1), 2) + shift(seed, std::numbers::sqrt2));
-    const double v = around(radical_inverse(static_cast<std::uint32_t>(i + 1), 3) + shift(seed, std::numbers::sqrt3));
+    const double u = around(radical_inverse(static_cast<std::uint32_t>(i + 1), 2) + shift(seed, 0));
+    const double v = around(radical_inverse(static_cast<std::uint32_t>(i + 1), 3) + shift(seed, 1));
     const auto at = static_cast<std::size_t>(2 * (i / out.columns) * out.columns + i % out.columns);
-    out.texels[at] = glm::vec4(u, v, 0.0, 0.0);
+    out.texels[at] = glm::vec4(inside(u), std::cos(2.0 * std::numbers::pi * v), std::sin(2.0 * std::numbers::pi * v), 0.0);
     if (image != nullptr) {
-      out.texels[at + static_cast<std::size_t>(out.columns)] = glm::vec4(glm::vec3(image->direction(u, v)), 0.0F);
+      const ImageSampling::Drawn drawn = image->draw(u, v);
+      out.texels[at + static_cast<std::size_t>(out.columns)] = glm::vec4(glm::vec3(drawn.direction), static_cast<float>(drawn.density));
     }
   }
   return out;

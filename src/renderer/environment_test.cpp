@@ -1,10 +1,12 @@
 // Light from everywhere: both ways of the renderer, held to what can be computed by hand.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <utility>
 
@@ -202,6 +204,22 @@ TEST(EnvironmentMaps, WhatWasFilteredOnceIsReadTheNextTime) {
   std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
 }
 
+/// Of all directions: density / sin(theta), bilinear, times sin(theta) 2 pi^2 / texels, at 8 x 8 places of each texel.
+std::vector<double> shares_of_texels(const scene::Environment& sky, const ImageSampling& sampling) {
+  scene::Environment densities = sky;
+  std::transform(sampling.densities().begin(), sampling.densities().end(), densities.texels.begin(), [](float d) { return glm::vec3(d); });
+  constexpr int places = 8;
+  std::vector<double> shares(densities.texels.size(), 0.0);
+  for (int y = 0; y < sky.height * places; ++y) {
+    for (int x = 0; x < sky.width * places; ++x) {
+      const glm::dvec2 at((x + 0.5) / (sky.width * places), (y + 0.5) / (sky.height * places));
+      const double per_place = 2.0 * pi * pi / (static_cast<double>(shares.size()) * places * places);
+      shares[static_cast<std::size_t>((y / places) * sky.width + x / places)] += densities.radiance(densities.direction(at)).x * per_place;
+    }
+  }
+  return shares;
+}
+
 class ImageSamplingOf : public testing::TestWithParam<glm::ivec2> {};
 
 TEST_P(ImageSamplingOf, DrawsInProportionToTheDensitiesItTells) {
@@ -211,13 +229,8 @@ TEST_P(ImageSamplingOf, DrawsInProportionToTheDensitiesItTells) {
   sky.texels[static_cast<std::size_t>(2 * texels / 3)] = glm::vec3(50.0F);
   const ImageSampling sampling(sky);
   // The densities integrate to one over the sphere, and directions fall into each texel as often as its density says.
-  double whole = 0.0;
-  std::vector<double> expected;
-  for (const float density : sampling.densities()) {
-    expected.push_back(static_cast<double>(density) * 2.0 * pi * pi / texels);  // density / sin(theta) times sin(theta) 2 pi^2 / texels
-    whole += expected.back();
-  }
-  EXPECT_NEAR(whole, 1.0, 1e-5);
+  const std::vector<double> expected = shares_of_texels(sky, sampling);
+  EXPECT_NEAR(std::accumulate(expected.begin(), expected.end(), 0.0), 1.0, 1e-3);
   constexpr int count = 100000;
   std::vector<int> drawn(expected.size(), 0);
   const PointRows rows = point_rows(count, 7, &sampling);
@@ -235,12 +248,45 @@ INSTANTIATE_TEST_SUITE_P(ImageSampling, ImageSamplingOf,
                          testing::Values(glm::ivec2(16, 8), glm::ivec2(13, 7), glm::ivec2(5, 1), glm::ivec2(1, 3)),
                          [](const auto& tested) { return std::to_string(tested.param.x) + "x" + std::to_string(tested.param.y); });
 
+TEST(PointRows, OfEachSeedAreMovedAsIfAtRandomAndStayInsideTheSquare) {
+  constexpr int count = 64;
+  constexpr std::uint64_t seeds = 4000;
+  const PointRows unmoved = point_rows(count, 0, nullptr);
+  EXPECT_EQ(unmoved.texels[0].x, 0.5F) << "Halton's first";
+  double mean = 0.0;
+  double square = 0.0;
+  double product = 0.0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const PointRows rows = point_rows(count, seed, nullptr);
+    for (int i = 0; i < count; ++i) {
+      const glm::vec4& p = rows.texels[static_cast<std::size_t>(i)];
+      ASSERT_GT(p.x, 0.0F);
+      ASSERT_LT(p.x, 1.0F);
+      ASSERT_NEAR(p.y * p.y + p.z * p.z, 1.0F, 1e-6F);
+    }
+    const double x = rows.texels[0].x - 0.5;
+    mean += x / seeds;
+    square += x * x / seeds;
+    product += x * (point_rows(count, seed + 1, nullptr).texels[0].x - 0.5) / seeds;
+  }
+  // Four standard errors of numbers drawn evenly and independently.
+  EXPECT_NEAR(mean, 0.0, 4.0 * std::sqrt(1.0 / 12.0 / seeds));
+  EXPECT_NEAR(square, 1.0 / 12.0, 4.0 * std::sqrt(1.0 / 180.0 / seeds));
+  EXPECT_NEAR(product, 0.0, 4.0 / 12.0 / std::sqrt(static_cast<double>(seeds))) << "neighbouring seeds have nothing to do with each other";
+}
+
 TEST(ImageSampling, NoLightAtAllIsDrawnFromEvenly) {
   const ImageSampling sampling(image_of(8, 4, [](const glm::dvec3&) { return 0.0; }));
-  const glm::dvec3 direction = sampling.direction(0.625, 0.25);  // a quarter down: 45 degrees above the horizon; -Z stands in the middle
-  EXPECT_NEAR(direction.y, std::sqrt(0.5), 1e-9);
-  EXPECT_NEAR(direction.x, std::sqrt(0.5) * std::cos(2.0 * pi * 0.125), 1e-9);
-  EXPECT_NEAR(direction.z, std::sqrt(0.5) * std::sin(2.0 * pi * 0.125), 1e-9);
+  // Texel (5, 1), which stands for [5/8, 6/8) x [1/4, 2/4): the middle gives its centre. In the outer half of a row of its own it is the
+  // place itself.
+  const auto expect_at = [](const ImageSampling::Drawn& drawn, double u, double v) {
+    const glm::dvec3 expected = scene::Environment().direction({u, v});
+    EXPECT_NEAR(glm::distance(drawn.direction, expected), 0.0, 1e-9);
+    EXPECT_NEAR(drawn.density, 1.0 / (2.0 * pi * pi * std::sin(pi * v)), 1e-5 * drawn.density);
+  };
+  expect_at(sampling.draw(5.5 / 8, 1.5 / 4), 5.5 / 8, 1.5 / 4);
+  expect_at(sampling.draw(5.5 / 8, 0.2 / 4), 5.5 / 8, 0.2 / 4);
+  expect_at(sampling.draw(5.125 / 8, 1.5 / 4), 5.0 / 8, 1.5 / 4);  // an eighth of a tent lies before its first half of a slope
 }
 
 TEST(ImageSampling, FindsEachPartOfTheLightNearlyInItsShare) {
@@ -260,10 +306,10 @@ TEST(ImageSampling, FindsEachPartOfTheLightNearlyInItsShare) {
     const auto part = [](double u, double v) {
       return static_cast<std::size_t>(static_cast<int>(v * 4.0) * 8 + static_cast<int>(u * 8.0));
     };
+    const std::vector<double> shares = shares_of_texels(sky, sampling);
     for (int y = 0; y < 32; ++y) {
       for (int x = 0; x < 64; ++x) {
-        const double density = sampling.densities()[static_cast<std::size_t>(y * 64 + x)];
-        expected.at(part((x + 0.5) / 64, (y + 0.5) / 32)) += count * density * 2.0 * pi * pi / (64.0 * 32.0);
+        expected.at(part((x + 0.5) / 64, (y + 0.5) / 32)) += count * shares[static_cast<std::size_t>(y * 64 + x)];
       }
     }
     const PointRows rows = point_rows(count, 0, &sampling);

@@ -26,6 +26,9 @@ namespace sheen::renderer {
 
 namespace {
 
+/// DRAWS of shaders/environment_sampled.glsl, at most.
+constexpr int ways_to_draw = 7;
+
 /// What outlives a scene: programs by their source, tables by their visibility, the last target and environment.
 struct Resources {
   Resources(gles::Context& context_, std::filesystem::path cache) : context(context_), kept(std::move(cache)) {}
@@ -215,7 +218,8 @@ class SceneDraw {
       around_.split_sums = maps.split_sums();
     }
     if (any(&ShaderPlan::environment_points)) {
-      around_.points = maps.points(*settings_.environment, settings_.environment_samples, settings_.seed);
+      // Each way to draw directions draws one at least.
+      around_.points = maps.points(*settings_.environment, settings_.environment_samples + ways_to_draw, settings_.seed);
     }
   }
 
