@@ -23,7 +23,7 @@ std::string cache_name(const std::string& hash, const golden::Settings& settings
   std::string text = settings_text(settings);
   std::replace(text.begin(), text.end(), ' ', '-');
   return std::string("v") + golden::formula_version + "-" + hash + "-" + text + "-s" + std::to_string(settings.subpixel_bits) + "-" +
-         to_string(settings.precision) + ".exr";
+         to_string(settings.precision) + (settings.drawn_directions > 0 ? "-d" + std::to_string(settings.drawn_directions) : "") + ".exr";
 }
 
 /// Whether a picture from the cache is what its name says.
@@ -67,7 +67,7 @@ void write_manifest(const fs::path& dir, const Manifest& manifest) {
   write_file(dir / "manifest.json", root.dump(1) + "\n");
 }
 
-golden::Settings golden_settings(const Case& one, const albedo::SheenModel& model, int subpixel_bits) {
+golden::Settings golden_settings(const Case& one, const albedo::SheenModel& model, int subpixel_bits, int drawn_directions) {
   golden::Settings settings;
   settings.view.width = one.width;
   settings.view.height = one.height;
@@ -78,6 +78,7 @@ golden::Settings golden_settings(const Case& one, const albedo::SheenModel& mode
   if (!one.environment.empty()) {
     settings.environment = &kept_environment(one.environment);
     settings.sampling.error = golden_error;
+    settings.drawn_directions = drawn_directions;
   }
   return settings;
 }

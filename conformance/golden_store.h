@@ -32,8 +32,8 @@ void write_manifest(const std::filesystem::path& dir, const Manifest& manifest);
 /// Relative standard error that 99 % of a golden's pixels meet under an image.
 inline constexpr double golden_error = 0.0025;
 
-/// The settings a golden of the case is computed with.
-golden::Settings golden_settings(const Case& one, const albedo::SheenModel& model, int subpixel_bits);
+/// The settings a golden of the case is computed with. @param drawn_directions  of a viewer that draws an environment as ours does, else 0
+golden::Settings golden_settings(const Case& one, const albedo::SheenModel& model, int subpixel_bits, int drawn_directions = 0);
 /// What of them its radiance depends on, as text: "128x128 camera 0 charlie full"; a model other than the ratified one is named last.
 std::string settings_text(const golden::Settings& settings);
 

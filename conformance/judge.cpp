@@ -6,6 +6,7 @@
 
 #include "conformance/case_scene.h"
 #include "conformance/nearest_rank.h"
+#include "conformance/replicas.h"
 #include "image/io.h"
 #include "scene/gltf.h"
 
@@ -58,7 +59,7 @@ std::string identify_form(const Case& one, const PreparedCase& prepared, const i
   }
   rules.golden_is_pxr24 = false;
   for (const SheenModel& form : allowed_forms(one.model)) {
-    const golden::Settings settings = golden_settings(one, form, prepared.settings.subpixel_bits);
+    const golden::Settings settings = golden_settings(one, form, prepared.settings.subpixel_bits, prepared.settings.drawn_directions);
     const image::Image golden = store.computed(prepared.scene, prepared.scene_hash, settings);
     if (judge(candidate, golden, rules).status == Status::Pass) {
       return name_difference(form, one.model);
@@ -173,7 +174,7 @@ VerdictRules own_rules(golden::Precision precision, albedo::AlbedoScaling scalin
     rules.leave_out_unpromised = true;
     rules.most_vague = 1;
   }
-  rules.environment_tolerance = environment ? environment_tolerance : 0;
+  rules.standard_errors = environment ? replica_standard_errors : 0;
   return rules;
 }
 
@@ -185,6 +186,8 @@ VerdictRules rules_of(const Case& one, const PreparedCase& prepared, const Hello
     rules.leave_out_mirrored = true;
     rules.relative_tolerance = foreign_relative_tolerance;
     rules.absolute_tolerance = foreign_absolute_tolerance;
+    rules.environment_tolerance = one.environment.empty() ? 0 : foreign_environment_tolerance;
+    rules.standard_errors = 0;
   }
   return rules;
 }
@@ -214,9 +217,9 @@ std::vector<std::uint8_t> keep_candidate(const fs::path& images, const std::stri
   return keep_bytes(images / (name + ".candidate.png"), candidate, darker);
 }
 
-PreparedCase prepare_case(const Case& one, const GoldenStore& store, const fs::path& scenes, int subpixel_bits) {
+PreparedCase prepare_case(const Case& one, const GoldenStore& store, const fs::path& scenes, int subpixel_bits, int drawn_directions) {
   PreparedCase prepared;
-  prepared.settings = golden_settings(one, one.model, subpixel_bits);
+  prepared.settings = golden_settings(one, one.model, subpixel_bits, drawn_directions);
   try {
     prepared.scene_file = write_scene(one, scenes);
     if (one.refused) {
@@ -263,7 +266,10 @@ CaseResult judge_case(const Case& one, const PreparedCase& prepared, const Answe
   }
   image::Image candidate;
   try {
-    candidate = image::read(answer.image);
+    candidate = with_standard_errors(image::read(answer.image));
+    if (candidate.channel("standard_error.R") >= 0) {
+      image::write(answer.image, candidate);  // in the place of every replica
+    }
   } catch (const image::Error& error) {
     result.message = std::string("the picture cannot be read: ") + error.what();
     return result;

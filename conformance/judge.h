@@ -58,15 +58,16 @@ struct CaseResult {
 
 /// Writes the scene, reads it back, computes the golden; of a case that is to be refused, writes it alone. Never throws: what goes wrong is
 /// the case's `problem`. Safe to call from many threads.
-PreparedCase prepare_case(const Case& one, const GoldenStore& store, const std::filesystem::path& scenes, int subpixel_bits);
+/// @param drawn_directions  of golden_settings
+PreparedCase prepare_case(const Case& one, const GoldenStore& store, const std::filesystem::path& scenes, int subpixel_bits,
+                          int drawn_directions = 0);
 
-/// What 4,096 directions a pixel leave of the light of an environment, over the suites' materials and environments: a share of the value.
-inline constexpr double environment_tolerance = 0.02;
-inline constexpr int environment_directions = 4096;
 /// What viewers of others are granted beyond the bound, a share of the value and an absolute one: half floats in a target or a table hold
 /// 11 bits, a share of 5e-4, and tables of albedos in use are off by more.
 inline constexpr double foreign_relative_tolerance = 1e-3;
 inline constexpr double foreign_absolute_tolerance = 2e-5;
+/// And under an environment, which they draw or filter as they please: what some 4,096 directions leave, a share of the value.
+inline constexpr double foreign_environment_tolerance = 0.02;
 
 /// What our own viewer is judged by: a golden for that precision and scaling, and whether an environment lights the scene.
 VerdictRules own_rules(golden::Precision precision, albedo::AlbedoScaling scaling, bool environment);

@@ -19,6 +19,7 @@
 #include "conformance/judge_function.h"
 #include "conformance/judge_relation.h"
 #include "conformance/paths.h"
+#include "conformance/replicas.h"
 #include "conformance/report.h"
 #include "conformance/results.h"
 #include "conformance/suite.h"
@@ -123,7 +124,7 @@ class Session {
         viewer_(std::move(command), {options.start_limit_seconds, options.case_limit_seconds}),
         hello_(viewer_.hello()),
         store_(cache_ / "goldens", options.goldens.empty() ? find_goldens() : options.goldens, suite_.name),
-        prefetcher_([this](std::size_t i) { return prepare_case(suite_.cases[i], store_, cache_ / "scenes", hello_.subpixel_bits); }) {
+        prefetcher_([this](std::size_t i) { return prepare(suite_.cases[i]); }) {
     const auto settle_precision = [&](std::vector<Case>& cases) {
       for (Case& one : cases) {
         one.precision = one.precision.value_or(parse_golden_precision(options.precision));
@@ -181,7 +182,14 @@ class Session {
     const fs::path output = images_ / (one.name + kind + (hello_.encoding == Encoding::Srgb8 ? ".png" : ".exr"));
     const fs::path environment = one.environment.empty() ? fs::path() : write_environment(one.environment, cache_ / "environments");
     const std::string precision = one.precision ? to_string(*one.precision) : "";
-    return viewer_.draw({scene_file, 0, one.width, one.height, output, one.model, precision, environment, environment_samples});
+    const bool replicas = hello_.is_ours() && !one.environment.empty() && environment_samples > 0;
+    return viewer_.draw({scene_file, 0, one.width, one.height, output, one.model, precision, environment,
+                         replicas ? directions_of_replica(environment_samples) : environment_samples, replicas ? environment_replicas : 0});
+  }
+  PreparedCase prepare(const Case& one) const {
+    const bool drawn = hello_.is_ours() && options_.environment_samples > 0;
+    return prepare_case(one, store_, cache_ / "scenes", hello_.subpixel_bits,
+                        drawn ? directions_of_replica(options_.environment_samples) : 0);
   }
   CaseResult hold_to_golden(std::size_t index) {
     const Case& one = suite_.cases[index];
@@ -212,7 +220,7 @@ class Session {
       const fs::path file = write_scene(scene, cache_ / "scenes");
       return {file, draw(scene, file), std::nullopt};
     }
-    PreparedCase prepared = prepare_case(scene, store_, cache_ / "scenes", hello_.subpixel_bits);
+    PreparedCase prepared = prepare(scene);
     if (!prepared.problem.empty()) {
       throw std::runtime_error("the golden of '" + scene.name + "': " + prepared.problem);
     }

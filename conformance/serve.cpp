@@ -1,6 +1,7 @@
 #include "conformance/serve.h"
 
 #include <chrono>
+#include <cstdint>
 #include <istream>
 #include <ostream>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include "conformance/environment_input.h"
 #include "conformance/goldens.h"
 #include "conformance/json_text.h"
+#include "conformance/replicas.h"
 #include "conformance/shading_words.h"
 #include "gles/context.h"
 #include "image/io.h"
@@ -23,6 +25,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int most_replicas = 64;
+
 gles::ContextKind parse_context(const std::string& word) {
   if (word == "osmesa") {
     return gles::ContextKind::OsMesa;
@@ -33,7 +37,8 @@ gles::ContextKind parse_context(const std::string& word) {
   throw std::invalid_argument("unknown context '" + word + "'; known: osmesa, egl");
 }
 
-renderer::Settings read_settings(const json& request, renderer::Precision precision) {
+/// @param replicas  where how many pictures of their own directions are asked for goes; may be null, of what has no picture
+renderer::Settings read_settings(const json& request, renderer::Precision precision, int* replicas = nullptr) {
   renderer::Settings settings;
   settings.precision = precision;
   settings.view.width = request.at("width").get<int>();
@@ -52,6 +57,13 @@ renderer::Settings read_settings(const json& request, renderer::Precision precis
       settings.environment_samples = value.get<int>();
       if (settings.environment_samples < 0 || settings.environment_samples > renderer::most_environment_samples) {
         throw std::invalid_argument("environment_samples must be from 0 to " + std::to_string(renderer::most_environment_samples));
+      }
+      continue;
+    }
+    if (key == "environment_replicas" && replicas != nullptr) {
+      *replicas = value.get<int>();
+      if (*replicas < 0 || *replicas == 1 || *replicas > most_replicas) {
+        throw std::invalid_argument("environment_replicas must be 0 or from 2 to " + std::to_string(most_replicas));
       }
       continue;
     }
@@ -101,13 +113,21 @@ struct Server {
       : precision(precision_), options(options_), renderer(context, default_cache() / "environments"), evaluator(context) {}
 
   image::Image draw(const json& request) {
-    renderer::Settings settings = read_settings(request, precision);
+    int replicas = 0;
+    renderer::Settings settings = read_settings(request, precision, &replicas);
     settings.environment = last.of(request);
     scene::Scene scene = scene::load_gltf(request.at("scene").get<std::string>());
     if (options.alter) {
       options.alter(scene, settings);
     }
-    return renderer.render(scene, settings);
+    if (replicas == 0) {
+      return renderer.render(scene, settings);
+    }
+    const auto one = [&](std::uint64_t seed) {
+      settings.seed = seed;
+      return renderer.render(scene, settings);
+    };
+    return draw_replicas(one, replicas, settings.seed);
   }
   image::Image evaluate(const json& request) {
     renderer::Settings settings = read_settings(request, precision);

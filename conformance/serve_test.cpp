@@ -118,6 +118,33 @@ TEST_F(ServeTest, AnEnvironmentLightsThePicture) {
   EXPECT_NE(image::read(folder_.path() / "sampled.exr").data, with.data);
 }
 
+TEST_F(ServeTest, ReplicasOfAPictureDrawDirectionsOfTheirOwn) {
+  json asked = request("replicas");
+  asked["environment"] = "uniform:1,1,1";
+  asked["settings"] = {{"environment_samples", 16}, {"environment_replicas", 3}};
+  std::string lines = asked.dump() + "\n";
+  for (const int replicas : {-1, 1, 1000}) {
+    asked["settings"]["environment_replicas"] = replicas;
+    lines += asked.dump() + "\n";
+  }
+  const std::vector<std::string> answers = lines_for(lines);
+  ASSERT_EQ(answers.size(), 5U);
+  EXPECT_EQ(json::parse(answers[1])["status"], "rendered") << answers[1];
+  for (const std::size_t i : {2U, 3U, 4U}) {
+    EXPECT_NE(json::parse(answers[i])["message"].get<std::string>().find("from 2 to 64"), std::string::npos) << answers[i];
+  }
+  const image::Image picture = image::read(folder_.path() / "replicas.exr");
+  std::vector<float> greens;
+  for (const char* name : {"replica.1.G", "replica.2.G", "replica.3.G"}) {
+    ASSERT_GE(picture.channel(name), 0) << name;
+    greens.push_back(picture.at(8, 6, picture.channel(name)));
+  }
+  EXPECT_EQ(picture.channel("replica.4.G"), -1);
+  EXPECT_NE(greens[0], greens[1]);
+  EXPECT_NE(greens[1], greens[2]);
+  EXPECT_FLOAT_EQ(picture.at(8, 6, picture.channel("G")), (greens[0] + greens[1] + greens[2]) / 3.0F);
+}
+
 TEST_F(ServeTest, MoreDirectionsThanEveryDriverDrawsAreRefused) {
   json request_of_more = request("more");
   request_of_more["environment"] = "uniform:1,1,1";

@@ -22,12 +22,17 @@ struct Channels {
   std::array<int, 4> candidate{};  // R G B A; A may be -1
   std::array<int, 4> golden{};
   std::array<int, 4> bound{};
+  std::array<int, 3> standard_error{};  // of the candidate
   int excluded = -1;
   int mirrored = -1;
 
   Channels(const image::Image& candidate_image, const image::Image& golden_image) {
     const std::array<const char*, 4> names = {"R", "G", "B", "A"};
     const std::array<const char*, 4> bounds = {"bound.R", "bound.G", "bound.B", "bound.A"};
+    const std::array<const char*, 3> errors = {"standard_error.R", "standard_error.G", "standard_error.B"};
+    for (std::size_t c = 0; c < 3; ++c) {
+      standard_error.at(c) = candidate_image.channel(errors.at(c));
+    }
     for (std::size_t c = 0; c < 4; ++c) {
       candidate.at(c) = candidate_image.channel(names.at(c));
       golden.at(c) = golden_image.channel(names.at(c));
@@ -104,6 +109,9 @@ class Judge {
     if (c < 3) {
       s.bound += rules_.relative_tolerance * std::abs(s.reference) + rules_.absolute_tolerance;
       s.bound += rules_.environment_tolerance * std::max(std::abs(s.reference), 1e-3);
+      if (rules_.standard_errors > 0 && channels_.standard_error.at(c) >= 0) {
+        s.bound += rules_.standard_errors * candidate_.at(x, y, channels_.standard_error.at(c));
+      }
     }
     if (rules_.golden_is_pxr24) {
       s.bound += std::abs(s.reference) * 0x1p-16;

@@ -53,8 +53,11 @@ struct VerdictRules {
   /// not be those that the bound is derived for.
   double relative_tolerance = 0;
   double absolute_tolerance = 0;
-  /// The candidate's light from everywhere was sampled or filtered: this share of a value (at least of 1e-3) is granted beyond the bound.
+  /// Light from everywhere of another's viewer was sampled or filtered: this share of a value (at least of 1e-3) is granted beyond the
+  /// bound.
   double environment_tolerance = 0;
+  /// So many of the standard errors that the candidate's replicas show (replicas.h) are granted; without any, nothing.
+  double standard_errors = 0;
   /// A golden with more than this share of its covered pixels excluded judges nothing.
   double most_excluded = 0.02;
   /// Whether pixels for which the rules promise nothing (excluded for reason 4) are left out however many they are. They still must be

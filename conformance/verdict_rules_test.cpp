@@ -56,6 +56,33 @@ TEST_F(VerdictRulesTest, EightBitCodesAreForgivenHalfACodeAndTheClip) {
   EXPECT_EQ(verdict().status, Status::Fail) << "a code off by one or more is seen";
 }
 
+TEST_F(VerdictRulesTest, ReplicasAreGrantedWhatTheyShowByChanceWhereTheRulesSaySo) {
+  const float value = golden_.at(6, 6, 1);
+  candidate_.at(6, 6, 1) = 1.07F * value;
+  rules_.standard_errors = 8;
+  EXPECT_EQ(verdict().status, Status::Fail) << "there are no replicas";
+  image::Image told(width, height, {"R", "G", "B", "A", "standard_error.R", "standard_error.G", "standard_error.B"});
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 4; ++c) {
+        told.at(x, y, c) = candidate_.at(x, y, c);
+      }
+    }
+  }
+  candidate_ = told;
+  EXPECT_EQ(verdict().status, Status::Fail) << "they all agree";
+  candidate_.at(6, 6, 4) = 1.0F;
+  EXPECT_EQ(verdict().status, Status::Fail) << "another channel does not";
+  candidate_.at(6, 6, 5) = 0.01F * value;
+  EXPECT_EQ(verdict().status, Status::Pass) << verdict().message;
+  EXPECT_NEAR(verdict().bound_ratio, 0.07 * value / (0.08 * value + golden_.at(6, 6, 5)), 1e-4);
+  candidate_.at(6, 6, 5) = 0.008F * value;
+  EXPECT_EQ(verdict().status, Status::Fail);
+  candidate_.at(6, 6, 5) = 0.01F * value;
+  rules_.standard_errors = 0;
+  EXPECT_EQ(verdict().status, Status::Fail);
+}
+
 TEST_F(VerdictRulesTest, MirroredPixelsAreLeftOutOnlyIfTheRulesSaySo) {
   golden_.channels.push_back("mirrored");
   std::vector<float> data;

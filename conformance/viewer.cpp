@@ -151,6 +151,9 @@ Answer Viewer::draw(const Request& request) {
   }
   if (!request.environment.empty()) {
     line["settings"]["environment_samples"] = request.environment_samples;
+    if (request.environment_replicas > 0) {
+      line["settings"]["environment_replicas"] = request.environment_replicas;
+    }
   }
   return ask(std::move(line), request.output);
 }

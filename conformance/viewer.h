@@ -51,6 +51,7 @@ struct Request {
   std::string precision{};              ///< "highp", "mediump"; empty: the viewer's own
   std::filesystem::path environment{};  ///< an equirect; empty: none
   int environment_samples = 0;          ///< for a viewer that takes settings
+  int environment_replicas = 0;         ///< for our own; 0: none is asked for
 };
 
 /// A function to be evaluated by a viewer that can: one of renderer/functions.h.

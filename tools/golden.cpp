@@ -30,6 +30,7 @@ image::Image golden_image(const scene::Scene& scene, const SceneOptions& options
   settings.environment = request.environment;
   settings.sampling = request.sampling;
   settings.bounds = request.bounds;
+  settings.drawn_directions = request.drawn_directions;
   settings.progress = [&progress, pixels](double share) {
     progress.update(static_cast<std::int64_t>(share * static_cast<double>(pixels)));
   };

@@ -15,6 +15,7 @@ struct GoldenRequest {
   int subpixel_bits = golden::Settings().subpixel_bits;    ///< of the driver it is to judge
   golden::Precision precision = golden::Precision::Highp;  ///< of the shader it is to judge
   bool bounds = true;
+  int drawn_directions = 0;  ///< of golden::Settings
 };
 
 /// The golden of the picture asked for; shows progress. Throws scene::Error.

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cstdint>
 #include <future>
 #include <iostream>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "conformance/goldens.h"
 #include "conformance/json_text.h"
 #include "conformance/judge.h"
+#include "conformance/replicas.h"
 #include "conformance/verdict.h"
 #include "gles/context.h"
 #include "image/io.h"
@@ -77,12 +79,24 @@ int render(const RenderOptions& options) {
     settings.environment_samples = conformance::environment_directions;
     fmt::print(stderr, "--verify draws {} directions of the environment a pixel\n", settings.environment_samples);
   }
-  image::Image picture = renderer.render(scene, settings);
+  // What directions leave by chance, replicas tell.
+  const bool replicas = options.verify && environment;
+  if (replicas) {
+    settings.environment_samples = conformance::directions_of_replica(settings.environment_samples);
+  }
+  const auto draw = [&](std::uint64_t seed) {
+    settings.seed = seed;
+    return renderer.render(scene, settings);
+  };
+  image::Image picture =
+      replicas ? conformance::with_standard_errors(conformance::draw_replicas(draw, conformance::environment_replicas, settings.seed))
+               : renderer.render(scene, settings);
   std::optional<conformance::Verdict> verdict;
   if (options.verify) {
     GoldenRequest request;
     request.environment = environment ? &*environment : nullptr;
     request.subpixel_bits = context->info().subpixel_bits;
+    request.drawn_directions = replicas ? settings.environment_samples : 0;
     request.precision = options.precision == renderer::Precision::Mediump ? golden::Precision::Mediump : golden::Precision::Highp;
     verdict = conformance::judge(picture, golden_image(scene, options, request),
                                  conformance::own_rules(request.precision, settings.sheen.scaling, environment.has_value()));

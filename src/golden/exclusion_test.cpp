@@ -164,7 +164,9 @@ TEST(Exclusion, ALightOppositeToTheViewWhoseHalfVectorMayHaveAnyDirection) {
   coated.clearcoat.factor = 1.0;
   coated.clearcoat.roughness_factor = 0.3;
   coated.double_sided = true;
-  const scene::Scene s = test::scene_with(p, coated, test::orthographic_at(5.0, 1.0), {test::directional({1e-8, 0.0, -1.0})});
+  scene::Scene s = test::scene_with(p, coated, test::orthographic_at(5.0, 1.0), {test::directional({3e-8, 0.0, -1.0})});
+  s.cameras[0].perspective = true;
+  s.cameras[0].yfov = 1e-6;
   EXPECT_EQ(excluded(s, 4.0F), 0) << "GGX is never above 1 / (pi alpha^2)";
 }
 

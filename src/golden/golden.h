@@ -17,7 +17,7 @@
 namespace sheen::golden {
 
 /// Changes with every change of a formula that can change a golden; part of the key of every cached or committed golden.
-inline constexpr const char* formula_version = "12";
+inline constexpr const char* formula_version = "13";
 
 /// The precision that a shader's lobes and Fresnel terms have; all else is highp.
 enum class Precision { Highp, Mediump };
@@ -32,6 +32,9 @@ struct Settings {
   const scene::Environment* environment = nullptr;  ///< light from everywhere, besides the scene's lights; must outlive its use
   SamplingGoal sampling;                            ///< of an environment that is an image
   bool bounds = true;                               ///< whether to compute the bound channels
+  /// Of an environment that the shader integrates from drawn directions, as ours do (shaders/environment_sampled.glsl): how many it adds
+  /// up. Its roundings are then part of the bound. 0: another way, of which nothing is known.
+  int drawn_directions = 0;
   /// Called now and then with the share done in [0, 1], from any thread.
   std::function<void(double)> progress;
 };

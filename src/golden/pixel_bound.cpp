@@ -23,6 +23,9 @@ PixelBound::PixelBound(const Frame& frame)
       near_misses_(frame),
       reader_(frame.geometry, frame.rays, frame.reader, frame.model.model),
       lights_(seen_from(frame.rays, frame.lights)) {
+  if (frame.settings.environment != nullptr && frame.settings.drawn_directions > 0) {
+    drawn_image_.emplace(*frame.settings.environment, frame.rays.view_from_world());
+  }
   for (std::size_t i = 0; frame.ggx && i < frame.scene.materials.size(); ++i) {
     const SurfaceReader::Material& m = frame.reader.material(static_cast<int>(i));
     std::optional<GgxAround>& around = base_albedos_.emplace_back();

@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include "golden/bounded_surface.h"
+#include "golden/drawn_image.h"
 #include "golden/frame.h"
 #include "golden/near_misses.h"
 
@@ -37,6 +38,8 @@ class PixelBound {
   const Frame& frame() const { return frame_; }
   const NearMisses& near_misses() const { return near_misses_; }
   const BoundedSurfaceReader& reader() const { return reader_; }
+  /// Null unless the settings say that a shader draws directions toward an environment.
+  const DrawnImage* drawn_image() const { return drawn_image_ ? &*drawn_image_ : nullptr; }
   /// What a material's surfaces in view space are shaded with.
   Lighting lighting(int material) const;
 
@@ -44,6 +47,7 @@ class PixelBound {
   const Frame& frame_;
   NearMisses near_misses_;
   BoundedSurfaceReader reader_;
+  std::optional<DrawnImage> drawn_image_;
   std::vector<PreparedLight> lights_;                   // in view space
   std::vector<std::optional<AlbedoAround>> albedos_;    // of materials without a texture of sheen roughness
   std::vector<std::optional<GgxAround>> base_albedos_;  // and whose roughness is one, in the physical model

@@ -11,6 +11,9 @@ struct SamplingGoal {
   std::uint64_t seed = 0;
 };
 
+/// Of what is known by chance alone, in the bound: a normal deviate passes five once in 1.7 million.
+inline constexpr double standard_errors = 5.0;
+
 /// Fewer directions than this give no standard error.
 inline constexpr std::uint32_t least_samples = 512;
 

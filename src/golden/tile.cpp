@@ -23,6 +23,9 @@ constexpr double largest_angle_under_image = 0.01, largest_angle_under_uniform_l
 Tile::Tile(const Frame& frame, const PixelBound* bound) : frame_(frame), bound_(bound) {
   if (bound != nullptr) {
     bounded_.emplace(*bound);
+    if (has_environment() && frame.settings.drawn_directions > 0) {
+      drawn_light_.emplace(*bound);
+    }
   }
 }
 
@@ -196,6 +199,9 @@ Tile::Plan Tile::plan(int x, int y) {
     }
   }
   plan.last_group = static_cast<std::uint32_t>(lod_group_ends_.size());
+  if (drawn_light_ && plan.excluded == Exclusion::None) {
+    plan.drawn = roundings_of_drawn(plan);
+  }
   return plan;
 }
 
@@ -276,7 +282,7 @@ Pixel Tile::finish(const Plan& plan) const {
   pixel.coverage = centre.coverage;
   pixel.standard_error = full.standard_error;
   const Enclosed bounded = bounded_ ? enclosed(plan, centre.direct) : Enclosed{};
-  const glm::dvec4 open = bounded.deviation + glm::dvec4(change, 0.0);
+  const glm::dvec4 open = bounded.deviation + glm::dvec4(change + plan.drawn, 0.0);
   pixel.bound = glm::dvec3(open) + centre.lookup + standard_errors * full.standard_error;
   pixel.coverage_bound = shows_background() ? 0.0 : open.w;
   pixel.excluded = plan.excluded;

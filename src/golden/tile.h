@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "golden/bounded_samples.h"
+#include "golden/drawn_light.h"
 #include "golden/environment_shade.h"
 #include "golden/frame.h"
 #include "golden/shade.h"
@@ -40,9 +41,6 @@ inline constexpr double most_texels_of_corners = 0.5;
 /// Of texture coordinates, as LodChoice has them.
 inline const std::array<glm::dvec2, 4> nudges{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
 
-/// Of the light of an image, in the bound: a normal deviate passes five once in 1.7 million.
-inline constexpr double standard_errors = 5.0;
-
 /// A few pixels worked out together: first every ray is cast and every surface read, then all are shaded in batches, then composed.
 class Tile {
  public:
@@ -66,6 +64,7 @@ class Tile {
     std::uint32_t centre, shifted_end, first_group, last_group;
     Exclusion excluded;
     std::size_t first_bound, last_bound;  // with bounds, of bounded_: light but an environment's, and coverage
+    glm::dvec3 drawn{0.0};                // see DrawnLight
   };
   struct Composed {
     glm::dvec3 radiance{0.0}, lookup{0.0}, standard_error{0.0};
@@ -85,6 +84,7 @@ class Tile {
   void add_shifted();
   void add_carried_on();
   bool add_nudged(const Plan& plan);
+  glm::dvec3 roundings_of_drawn(const Plan& plan);
   bool seen_before(std::size_t look) const;
   bool mask_uncertain(double step) const;
   void add_sample(const Seen& seen, const Ray& ray);
@@ -124,6 +124,7 @@ class Tile {
   const Frame& frame_;
   const PixelBound* bound_;
   std::optional<BoundedSamples> bounded_;
+  std::optional<DrawnLight> drawn_light_;
   CurveCache curves_;
   std::deque<Look> looks_{looks_around};  // and through near misses that are seen
   std::vector<Surface<double>> surfaces_;

@@ -32,6 +32,21 @@ void Tile::for_surfaces(std::uint32_t begin, std::uint32_t end, const Function& 
   }
 }
 
+// What a shader's directions round, of the surfaces that a pixel's centre shows, and its look-up of what is behind them.
+glm::dvec3 Tile::roundings_of_drawn(const Plan& plan) {
+  const Look& look = looks_[0];
+  const glm::dvec3 behind = shows_background() ? drawn_light_->open_background(look.ray) : glm::dvec3(0.0);
+  const Sample& centre = samples_[plan.centre];
+  if (centre.count == 0) {
+    return behind;
+  }
+  std::vector<double> opacities;
+  for (std::uint32_t layer = 0; layer < centre.count; ++layer) {
+    opacities.push_back(layers_[centre.first + layer].opacity);
+  }
+  return drawn_light_->open(look.seen, look.ray, &surfaces_[layers_[centre.first].surface], opacities.data(), behind, plan.pixel);
+}
+
 void Tile::add_environment_light(const std::vector<Plan>& plans) {
   const brdf::Rgb<double> zero{0, 0, 0};
   coarse_.assign(surfaces_.size(), zero);
