@@ -125,8 +125,10 @@ template <class Lobe>
 glm::dvec3 DrawnLight::open(const Surface<Bound>& surface, Layers layers, const Lighting& lighting, const DrawnImage& image,
                             const WayCounts& counts, int drawn, std::uint64_t stream) {
   // Whatever surface a shader holds, it draws and divides by that very surface.
-  const DrawnDirections<Bound> directions(spread<Bound>(centers(surface)), layers, counts);
+  const Surface<double> center = centers(surface);
+  const DrawnDirections<Bound> directions(spread<Bound>(center), layers, counts);
   const Shading<Bound, Lobe> shading(surface, layers, lighting);
+  const Shading<double, double> about(center, layers, lighting);
   const auto of_image = static_cast<double>(counts[index_of(Way::Image)]);
   const Color white{Bound(1), Bound(1), Bound(1)};
   Points points(stream);
@@ -138,20 +140,19 @@ glm::dvec3 DrawnLight::open(const Surface<Bound>& surface, Layers layers, const 
       const DrawnImage::Drawn drawn_there =
           by_image ? image.draw(points.number(), points.number()) : DrawnImage::Drawn{directions.draw(way, points.point()), Bound(0.0)};
       const Vec3<Bound> direction = displaced(drawn_there.direction);
-      Color lookup{Bound(0.0), Bound(0.0), Bound(0.0)};
-      const LightPart<Bound> part = shading.light({direction, white}, false, lookup);
+      Color none{Bound(0.0), Bound(0.0), Bound(0.0)};
+      const LightPart<Bound> part = shading.light({direction, white}, false, none);
       if (!part.lit) {
         continue;
       }
       const DrawnImage::Seen there = image.look_up(direction);
       const Bound density = directions.density(direction) + Bound(of_image) * (by_image ? drawn_there.density : there.density);
-      const auto term = [&](const Color& c) {
-        const Color light = c * there.radiance;
-        return Color{light.r / density, light.g / density, light.b / density};
-      };
-      const Color reflected = term(with_light({Bound(0.0), Bound(0.0), Bound(0.0)}, layers, part.sheen, part.base, part.coat));
-      const Color missed = term(lookup);
-      off.add(reflected, {missed.r.range().magnitude(), missed.g.range().magnitude(), missed.b.range().magnitude()});
+      const Color light = with_light({Bound(0.0), Bound(0.0), Bound(0.0)}, layers, part.sheen, part.base, part.coat) * there.radiance;
+      brdf::Rgb<double> missed{0, 0, 0};  // by a shader that reads E once, see Shaded
+      about.light({{direction.x.center(), direction.y.center(), direction.z.center()}, {1, 1, 1}}, false, missed);
+      const glm::dvec3 of_lookup = glm::dvec3(missed.r, missed.g, missed.b) *
+                                   glm::dvec3(there.radiance.r.center(), there.radiance.g.center(), there.radiance.b.center());
+      off.add({light.r / density, light.g / density, light.b / density}, of_lookup / density.center());
     }
   }
   // However the directions fall: the variance of a sum of independent numbers is below the sum of their squares.

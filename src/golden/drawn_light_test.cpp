@@ -259,6 +259,67 @@ TEST(DrawnLight, ABoundGrowsByALittleAndOnlyWhereDirectionsAreDrawn) {
   }
 }
 
+class Open {
+ public:
+  Open() { white_.uniform = glm::dvec3(1.0); }
+
+  template <class Lobe = Bound>
+  double of(const Surface<double>& s, Layers layers, albedo::AlbedoScaling scaling = albedo::AlbedoScaling::Full) const {
+    Lighting lighting;
+    lighting.albedo.interpolant = &interpolant_;
+    lighting.sheen.scaling = scaling;
+    const DrawnImage image(white_, glm::dmat3(1.0));
+    return DrawnLight::open<Lobe>(spread<Bound>(s), layers, lighting, image, drawn_counts(s, layers, false, 64), 256, 5).x;
+  }
+
+ private:
+  scene::Environment white_;
+  albedo::Interpolant interpolant_{albedo::Visibility::Charlie};
+};
+
+TEST(DrawnLight, HoldsWhatReadingEOnceMisses) {
+  const Open open;
+  const Layers cloth{true, false, false};
+  Surface<double> s = lacquered_cloth(1.2e-3, 0.05, 0.8);
+  s.base.metallic = 1;
+  const double both = open.of(s, cloth);
+  EXPECT_GT(both, 3e-3) << "seen so flat E(N.V) is below E of most lights";
+  EXPECT_LT(open.of(s, cloth, albedo::AlbedoScaling::View), 0.3 * both) << "one look-up is all there is";
+  s = lacquered_cloth(0.2, 0.05, 0.8);
+  s.base.metallic = 1;
+  EXPECT_LT(open.of(s, cloth), 1e-3);
+}
+
+TEST(DrawnLight, OcclusionDimsWhatItIsOffByToo) {
+  const Open open;
+  Surface<double> s = lacquered_cloth(0.8, 0.3, 0.4);
+  const double whole = open.of(s, {true, true, false});
+  s.occlusion = 0.25;
+  EXPECT_NEAR(open.of(s, {true, true, false}), 0.25 * whole, 1e-6 * whole);
+}
+
+TEST(DrawnLight, LobesOfMediumpAreOffByMore) {
+  const Open open;
+  const Surface<double> s = lacquered_cloth(0.8, 0.3, 0.4);
+  EXPECT_GT(open.of<number::Bounded<number::Mediump>>(s, {true, true, false}), 30 * open.of(s, {true, true, false}));
+}
+
+TEST(DrawnLight, TheEnvironmentItselfIsLookedUpWithAnError) {
+  scene::Environment sky = lamps();
+  sky.background = true;
+  const scene::Scene s = test::scene_with(test::square(0.3), test::cloth(0.4), test::orthographic_at(5.0, 1.0), {});
+  golden::Settings settings = test::settings_for(4, 4, true);
+  settings.environment = &sky;
+  settings.sampling.error = 0.05;
+  const image::Image without = render(s, settings);
+  settings.drawn_directions = 256;
+  const image::Image with = render(s, settings);
+  const int bound = with.channel("bound.G");
+  EXPECT_LT(without.at(0, 0, bound), 1e-6F * without.at(0, 0, 1)) << "one direction of all rays";
+  EXPECT_GT(with.at(0, 0, bound), 1e-6F * without.at(0, 0, 1));
+  EXPECT_LT(with.at(0, 0, bound), 1e-3F * without.at(0, 0, 1));
+}
+
 TEST(DrawnLight, OfAMirrorIsWhatItsLookupRounds) {
   const scene::Environment sky = lamps();
   const DrawnImage image(sky, glm::dmat3(1.0));
