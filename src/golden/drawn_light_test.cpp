@@ -115,6 +115,29 @@ brdf::Rgb<Real> term(const Shading<Real, Real>& shading, Layers layers, const Ve
   return {f.r / density, f.g / density, f.b / density};
 }
 
+TEST(DrawnLight, ADisplacedDirectionIsEveryOneThatMayBeDrawn) {
+  Random random;
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec3 d = glm::normalize(glm::dvec3(random.number() - 0.5, random.number() - 0.5, random.number() - 0.5));
+    const double off = std::pow(10.0, -7.0 + 4.0 * random.number());
+    const Vec3<Bound> moved = displaced({Bound::within(d.x, off), Bound::within(d.y, off), Bound::within(d.z, off)});
+    const glm::dvec3 across(moved.x.shift_x(), moved.y.shift_x(), moved.z.shift_x());
+    const glm::dvec3 along(moved.x.shift_y(), moved.y.shift_y(), moved.z.shift_y());
+    // The farthest corner of the box, brought back to length 1 but for roundings.
+    const glm::dvec3 corner(random.number() < 0.5 ? -off : off, random.number() < 0.5 ? -off : off, random.number() < 0.5 ? -off : off);
+    const glm::dvec3 one = (d + corner - glm::dot(corner, d) * d) / std::sqrt(1 + glm::dot(corner, corner)) * (1 + 4 * epsilon);
+    const glm::dvec3 by = one - d;
+    const double u = glm::dot(by, across) / glm::dot(across, across);
+    const double v = glm::dot(by, along) / glm::dot(along, along);
+    EXPECT_LE(std::abs(u), 1);
+    EXPECT_LE(std::abs(v), 1);
+    const glm::dvec3 rest = by - u * across - v * along;
+    EXPECT_LE(std::abs(rest.x), moved.x.radius());
+    EXPECT_LE(std::abs(rest.y), moved.y.radius());
+    EXPECT_LE(std::abs(rest.z), moved.z.radius());
+  }
+}
+
 TEST(DrawnLight, HoldsWhatAShaderMakesOfADirection) {
   const albedo::Interpolant interpolant(albedo::Visibility::Charlie);
   Lighting lighting;
@@ -146,18 +169,18 @@ TEST(DrawnLight, HoldsWhatAShaderMakesOfADirection) {
             if (bound.center() > 0) {
               relative.push_back(bound.deviation() / bound.center());
             }
-            double worst = 0;
-            for (int k = 0; k < 40; ++k) {
-              number::test::Decisions::current().start_anew(0.5);
+            const auto drawn_light = [&] {
               const DrawnDirections<Shader> drawn(held, layers, counts);
               const Shading<Shader, Shader> shading(held, layers, lighting);
               const Vec3<Shader> there = drawn.draw(static_cast<Way>(way), {Shader(x), Shader(c), Shader(sine)});
-              const double value = term(shading, layers, there, drawn.density(there)).r.value();
+              return term(shading, layers, there, drawn.density(there)).r.value();
+            };
+            const double worst = number::test::worst_of(i % 8 == 0 ? 600 : 30, drawn_light, [&](double value) {
               ++evaluations;
               escapes += std::abs(value - bound.center()) <= bound.deviation() ? 0 : 1;
-              worst = std::max(worst, std::abs(value - bound.center()));
-            }
-            if (bound.deviation() > 0 && bound.center() > 0) {
+              return std::abs(value - bound.center());
+            });
+            if (bound.deviation() > 0 && bound.center() > 0 && i % 8 == 0) {
               reached.push_back(worst / bound.deviation());
             }
           }
@@ -172,7 +195,9 @@ TEST(DrawnLight, HoldsWhatAShaderMakesOfADirection) {
     return values[values.size() / 2];
   };
   EXPECT_LT(median(relative), 2e-4) << "what f and p are off by together cancels";
-  EXPECT_GT(median(reached), 0.02) << "the bound is a worst case of hundreds of roundings, not of thousands";
+  // Roundings of the half vector, which f and p share, count twice.
+  EXPECT_GT(median(reached), 0.03) << "of the bound, by the worst that was found";
+  std::cout << "relative bound " << median(relative) << ", the worst reaches " << median(reached) << " of it\n";
 }
 
 TEST(DrawnLight, AnglesAreThoseOfAnArcTangent) {
@@ -264,12 +289,12 @@ class Open {
   Open() { white_.uniform = glm::dvec3(1.0); }
 
   template <class Lobe = Bound>
-  double of(const Surface<double>& s, Layers layers, albedo::AlbedoScaling scaling = albedo::AlbedoScaling::Full) const {
+  double of(const Surface<double>& s, Layers layers, albedo::AlbedoScaling scaling = albedo::AlbedoScaling::Full, int drawn = 256) const {
     Lighting lighting;
     lighting.albedo.interpolant = &interpolant_;
     lighting.sheen.scaling = scaling;
     const DrawnImage image(white_, glm::dmat3(1.0));
-    return DrawnLight::open<Lobe>(spread<Bound>(s), layers, lighting, image, drawn_counts(s, layers, false, 64), 256, 5).x;
+    return DrawnLight::open<Lobe>(spread<Bound>(s), layers, lighting, image, drawn_counts(s, layers, false, 64), drawn, 5).x;
   }
 
  private:
@@ -288,6 +313,15 @@ TEST(DrawnLight, HoldsWhatReadingEOnceMisses) {
   s = lacquered_cloth(0.2, 0.05, 0.8);
   s.base.metallic = 1;
   EXPECT_LT(open.of(s, cloth), 1e-3);
+}
+
+TEST(DrawnLight, EachDirectionThatIsAddedRoundsTheSum) {
+  const Open open;
+  Surface<double> white = lacquered_cloth(0.8, 0.5, 0.3);
+  white.base = {{1, 1, 1}, 0, 0.5, {0.04, 0.04, 0.04}, 0};
+  const auto of = [&](int drawn) { return open.of(white, {}, albedo::AlbedoScaling::Full, drawn); };
+  // A white Lambertian shows 1, as 64 directions have it to some hundredths.
+  EXPECT_NEAR(of(4096 + 1000) - of(4096), 1000 * epsilon, 0.1 * 1000 * epsilon);
 }
 
 TEST(DrawnLight, OcclusionDimsWhatItIsOffByToo) {
