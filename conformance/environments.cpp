@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include "image/io.h"
 
@@ -116,6 +117,16 @@ std::filesystem::path write_environment(const std::string& name, const std::file
   std::filesystem::create_directories(folder, error);
   image::write(file, picture);
   return file;
+}
+
+std::filesystem::path environment_for_viewer(const std::string& name, bool ours, const std::filesystem::path& cache) {
+  const scene::Environment& environment = kept_environment(name);
+  if (!ours || environment.is_image()) {
+    return write_environment(name, cache / "environments");
+  }
+  const nlohmann::json radiance = {environment.uniform.x, environment.uniform.y, environment.uniform.z};
+  const std::string numbers = radiance.dump();
+  return "uniform:" + numbers.substr(1, numbers.size() - 2);
 }
 
 }  // namespace sheen::conformance

@@ -21,4 +21,7 @@ const scene::Environment& kept_environment(const std::string& name);
 /// The same as an equirect .exr in a folder, whose name holds what it shows. An old file is kept. Throws image::Error.
 std::filesystem::path write_environment(const std::string& name, const std::filesystem::path& folder);
 
+/// What names it to a viewer: that file in CACHE/environments, or, to our own, "uniform:R,G,B" where it is uniform. Throws image::Error.
+std::filesystem::path environment_for_viewer(const std::string& name, bool ours, const std::filesystem::path& cache);
+
 }  // namespace sheen::conformance

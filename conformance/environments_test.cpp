@@ -25,6 +25,15 @@ TEST(Environments, AFileHoldsWhatIsMadeAndIsWrittenOnce) {
   EXPECT_EQ(white.radiance({0.6, 0.0, 0.8}), glm::dvec3(1.0));
 }
 
+TEST(Environments, OurOwnViewerIsToldOfUniformLightInWords) {
+  const TestFolder folder;
+  const scene::Environment told = read_environment(environment_for_viewer("white", true, folder.path()).string());
+  EXPECT_FALSE(told.is_image());
+  EXPECT_EQ(told.uniform, glm::dvec3(1.0));
+  EXPECT_TRUE(read_environment(environment_for_viewer("white", false, folder.path()).string()).is_image());
+  EXPECT_TRUE(read_environment(environment_for_viewer("sky", true, folder.path()).string()).is_image());
+}
+
 TEST(Environments, APictureWithoutColorIsNone) {
   const TestFolder folder;
   const std::string file = (folder.path() / "layered.exr").string();

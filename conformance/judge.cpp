@@ -134,7 +134,8 @@ void judge_picture(const Case& one, const PreparedCase& prepared, const image::I
     return;
   }
   result.identified = identify_form(one, prepared, candidate, rules, store);
-  if (result.identified.empty() && !one.environment.empty() && result.verdict->p99_rel <= most_approximated) {
+  const bool integrates = hello.is_ours() && prepared.settings.drawn_directions > 0;  // by directions, which its replicas answer for
+  if (result.identified.empty() && !one.environment.empty() && !integrates && result.verdict->p99_rel <= most_approximated) {
     result.identified = "environment filtered";
     result.status = Status::Approximation;
     result.message = "light from everywhere is approximated: 99 % of the values are within " + percent(result.verdict->p99_rel) +

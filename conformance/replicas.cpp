@@ -18,6 +18,11 @@ std::string channel_name(int replica, const char* color) {
 
 }  // namespace
 
+double granted_to_chance(double shown, double value, double largest) {
+  const double p = std::erfc(5.0 / std::sqrt(2.0));
+  return std::min(shown, std::sqrt(2 * std::log(2 / p) * largest * std::abs(value))) + std::log(1 / p) * largest;
+}
+
 int directions_of_replica(int directions) {
   return std::max(directions / environment_replicas, 1);
 }
@@ -32,7 +37,8 @@ image::Image draw_replicas(const std::function<image::Image(std::uint64_t seed)>
   image::Image all;
   for (int r = 1; r <= replicas; ++r) {
     const auto count = static_cast<std::uint64_t>(replicas);
-    const image::Image one = draw(seed * count + static_cast<std::uint64_t>(r));
+    const std::uint64_t own = seed * count + static_cast<std::uint64_t>(r);
+    const image::Image one = draw(own != 0 ? own : ~own);
     if (r == 1) {
       all = image::Image(one.width, one.height, channels);
     }

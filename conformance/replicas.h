@@ -15,6 +15,13 @@ inline constexpr int environment_replicas = 16;
 /// passes them once in 1.7 million: Student's distribution of 15 degrees of freedom.
 inline constexpr double replica_standard_errors = 8.268;
 
+/// What chance may be granted of a value that independent directions bring, none more than `largest`: what replicas show, but at most what
+/// a sum of such has for its value, and what may have been missed by all. With p the probability that five standard errors are passed: a
+/// sum of variance at most largest * value is off by sqrt(2 ln(2 / p) largest * value) (Bernstein 1946, for the most of it), and directions
+/// of which ln(1 / p) are expected all miss once in 1 / p.
+/// @param shown  by replicas, standard errors and their number
+double granted_to_chance(double shown, double value, double largest);
+
 /// Directions a pixel of each replica, of as many in all.
 int directions_of_replica(int directions);
 

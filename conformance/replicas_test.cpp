@@ -72,6 +72,16 @@ TEST(Replicas, APictureWithoutThemStaysAsItIs) {
   EXPECT_EQ(with_standard_errors(plain).data, plain.data);
 }
 
+TEST(Replicas, NoMoreIsGrantedThanDirectionsMayBringByChance) {
+  // 4,096 directions that bring a 4,096th each are off by their Poisson's deviation at the most.
+  const double largest = 1.0 / 4096;
+  const double most = granted_to_chance(1e30, 1.0, largest);
+  EXPECT_NEAR(most, 5.489 / 64 + 14.37 / 4096, 1e-4);
+  EXPECT_NEAR(granted_to_chance(0.01, 1.0, largest), 0.01 + 14.37 / 4096, 1e-5) << "what they show, where that is less";
+  EXPECT_NEAR(granted_to_chance(0.0, 10 * largest, largest), 14.37 * largest, 1e-5) << "all may have missed ten that were to be expected";
+  EXPECT_EQ(granted_to_chance(1.0, 1.0, 0.0), 0.0) << "what no direction brings is off by no chance";
+}
+
 TEST(Replicas, ShareTheDirectionsAmongThem) {
   EXPECT_EQ(directions_of_replica(environment_directions), 256);
   EXPECT_EQ(directions_of_replica(5), 1);

@@ -180,7 +180,7 @@ class Session {
   Answer draw(const Case& one, const fs::path& scene_file) { return draw(one, scene_file, ".candidate", options_.environment_samples); }
   Answer draw(const Case& one, const fs::path& scene_file, const std::string& kind, int environment_samples) {
     const fs::path output = images_ / (one.name + kind + (hello_.encoding == Encoding::Srgb8 ? ".png" : ".exr"));
-    const fs::path environment = one.environment.empty() ? fs::path() : write_environment(one.environment, cache_ / "environments");
+    const fs::path environment = one.environment.empty() ? fs::path() : environment_for_viewer(one.environment, hello_.is_ours(), cache_);
     const std::string precision = one.precision ? to_string(*one.precision) : "";
     const bool replicas = hello_.is_ours() && !one.environment.empty() && environment_samples > 0;
     return viewer_.draw({scene_file, 0, one.width, one.height, output, one.model, precision, environment,

@@ -9,6 +9,7 @@
 
 #include "conformance/code_rounding.h"
 #include "conformance/nearest_rank.h"
+#include "conformance/replicas.h"
 
 namespace sheen::conformance {
 namespace {
@@ -23,6 +24,7 @@ struct Channels {
   std::array<int, 4> golden{};
   std::array<int, 4> bound{};
   std::array<int, 3> standard_error{};  // of the candidate
+  std::array<int, 3> direction{};       // of the golden
   int excluded = -1;
   int mirrored = -1;
 
@@ -30,8 +32,10 @@ struct Channels {
     const std::array<const char*, 4> names = {"R", "G", "B", "A"};
     const std::array<const char*, 4> bounds = {"bound.R", "bound.G", "bound.B", "bound.A"};
     const std::array<const char*, 3> errors = {"standard_error.R", "standard_error.G", "standard_error.B"};
+    const std::array<const char*, 3> directions = {"direction.R", "direction.G", "direction.B"};
     for (std::size_t c = 0; c < 3; ++c) {
       standard_error.at(c) = candidate_image.channel(errors.at(c));
+      direction.at(c) = golden_image.channel(directions.at(c));
     }
     for (std::size_t c = 0; c < 4; ++c) {
       candidate.at(c) = candidate_image.channel(names.at(c));
@@ -110,7 +114,9 @@ class Judge {
       s.bound += rules_.relative_tolerance * std::abs(s.reference) + rules_.absolute_tolerance;
       s.bound += rules_.environment_tolerance * std::max(std::abs(s.reference), 1e-3);
       if (rules_.standard_errors > 0 && channels_.standard_error.at(c) >= 0) {
-        s.bound += rules_.standard_errors * candidate_.at(x, y, channels_.standard_error.at(c));
+        const double shown = rules_.standard_errors * candidate_.at(x, y, channels_.standard_error.at(c));
+        const int direction = channels_.direction.at(c);
+        s.bound += direction < 0 ? shown : granted_to_chance(shown, s.reference, golden_.at(x, y, direction) / environment_replicas);
       }
     }
     if (rules_.golden_is_pxr24) {

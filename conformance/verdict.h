@@ -56,7 +56,8 @@ struct VerdictRules {
   /// Light from everywhere of another's viewer was sampled or filtered: this share of a value (at least of 1e-3) is granted beyond the
   /// bound.
   double environment_tolerance = 0;
-  /// So many of the standard errors that the candidate's replicas show (replicas.h) are granted; without any, nothing.
+  /// So many of the standard errors that the candidate's replicas show (replicas.h) are granted; without any, nothing. And no more than
+  /// what they may be (granted_to_chance), where the golden tells what one direction brings: they are the candidate's own word.
   double standard_errors = 0;
   /// A golden with more than this share of its covered pixels excluded judges nothing.
   double most_excluded = 0.02;

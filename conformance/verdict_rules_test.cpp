@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -78,6 +79,18 @@ TEST_F(VerdictRulesTest, ReplicasAreGrantedWhatTheyShowByChanceWhereTheRulesSayS
   EXPECT_NEAR(verdict().bound_ratio, 0.07 * value / (0.08 * value + golden_.at(6, 6, 5)), 1e-4);
   candidate_.at(6, 6, 5) = 0.008F * value;
   EXPECT_EQ(verdict().status, Status::Fail);
+  candidate_.at(6, 6, 5) = 1e30F;
+  golden_.channels.insert(golden_.channels.end(), {"direction.R", "direction.G", "direction.B"});
+  std::vector<float> wider;
+  for (std::size_t i = 0; i < golden_.data.size(); i += 9) {
+    wider.insert(wider.end(), golden_.data.begin() + static_cast<std::ptrdiff_t>(i),
+                 golden_.data.begin() + static_cast<std::ptrdiff_t>(i + 9));
+    wider.insert(wider.end(), {0.0F, 0.0F, 0.0F});
+  }
+  golden_.data = wider;
+  EXPECT_EQ(verdict().status, Status::Fail) << "what replicas show is not believed beyond what directions bring";
+  golden_.at(6, 6, golden_.channel("direction.G")) = 0.004F * value;
+  EXPECT_EQ(verdict().status, Status::Pass) << verdict().message;
   candidate_.at(6, 6, 5) = 0.01F * value;
   rules_.standard_errors = 0;
   EXPECT_EQ(verdict().status, Status::Fail);

@@ -1,5 +1,5 @@
 // The angle from (1, 0) to (x, y), in (-PI, PI], 0 of no direction. GLSL ES promises nothing of its own atan and acos; of these operations it
-// does. The polynomial, a minimax fit, leaves 2e-8.
+// does. The polynomial, a minimax fit, leaves 1e-8.
 float angle_of(float y, float x) {
     float a = min(abs(x), abs(y)) / max(max(abs(x), abs(y)), 1e-30);
     float s = a * a;

@@ -84,9 +84,9 @@ int render(const RenderOptions& options) {
   if (replicas) {
     settings.environment_samples = conformance::directions_of_replica(settings.environment_samples);
   }
-  const auto draw = [&](std::uint64_t seed) {
+  const auto draw = [&, &drawn_scene = scene](std::uint64_t seed) {
     settings.seed = seed;
-    return renderer.render(scene, settings);
+    return renderer.render(drawn_scene, settings);
   };
   image::Image picture =
       replicas ? conformance::with_standard_errors(conformance::draw_replicas(draw, conformance::environment_replicas, settings.seed))

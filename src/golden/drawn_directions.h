@@ -42,7 +42,8 @@ Vec3<Real> unit_along(const Vec3<Real>& v) {
 }
 
 /// The directions that our shaders draw at a surface by each way but Image, and how densely. Written from the papers, as the shaders are.
-template <class Real>
+/// @tparam Lobe  the arithmetic of the lobes' distributions
+template <class Real, class Lobe = Real>
 class DrawnDirections {
  public:
   DrawnDirections(const Surface<Real>& surface, Layers layers, const WayCounts& counts)
@@ -102,6 +103,7 @@ class DrawnDirections {
     const Real n_dot_l = dot(base_.lobe.n, direction);
     Real sum = weighted(Way::Sphere) * Real(0.25 / brdf::pi) + weighted(Way::Cosine) * max(n_dot_l, Real(0)) * Real(1 / brdf::pi);
     const Half half(base_.lobe, direction);
+    const auto in_lobes = [](const Real& x) { return As<Lobe>::number(x); };
     if (draws(Way::Ggx)) {
       sum = sum + weighted(Way::Ggx) * ggx_density(base_.lobe, alpha_, half);
     }
@@ -111,7 +113,8 @@ class DrawnDirections {
     if (draws(Way::Sheen)) {
       const Real alpha_g = sheen_roughness_ * sheen_roughness_;
       const Real cosine = abs(half.n_dot_h);
-      const Real d = brdf::charlie_distribution(alpha_g, Real(min(cosine, one)), half.sin2);
+      const brdf::SheenLobe<Lobe> lobe(brdf::Visibility::Ashikhmin, in_lobes(sheen_roughness_), in_lobes(base_.lobe.n_dot_v));
+      const Real d = As<Real>::number(lobe.distribution(Lobe(min(abs(half.lobe_n_dot_h), Lobe(1))), half.lobe_sin2));
       sum = sum + weighted(Way::Sheen) * (d * cosine / (Real(4) * max(half.v_dot_h, Real(1e-30))));
       const Real power = Real(0.5) / alpha_g;
       const Real rim = (power + one) * exp2(power * log2(max(one - n_dot_l, Real(1e-30)))) / Real(2 * brdf::pi);
@@ -140,15 +143,19 @@ class DrawnDirections {
   };
 
   struct Half {
-    Real n_dot_h, sin2, v_dot_h;
+    Real n_dot_h, v_dot_h;
+    Lobe lobe_n_dot_h, lobe_sin2;
 
     Half(const LobeView<Real>& lobe, const Vec3<Real>& direction) {
       using brdf::min;
       const Vec3<Real> h = unit_along(direction + lobe.v);
-      const Vec3<Real> sine = cross(lobe.n, h);
       n_dot_h = dot(lobe.n, h);
-      sin2 = min(dot(sine, sine), Real(1));
       v_dot_h = dot(lobe.v, h);
+      const Vec3<Lobe> n = As<Lobe>::vector(lobe.n);
+      const Vec3<Lobe> of_lobe = As<Lobe>::vector(h);
+      const Vec3<Lobe> sine = cross(n, of_lobe);
+      lobe_n_dot_h = dot(n, of_lobe);
+      lobe_sin2 = min(dot(sine, sine), Lobe(1));
     }
   };
 
@@ -176,8 +183,9 @@ class DrawnDirections {
     using brdf::sqrt;
     const Real a2 = alpha * alpha;
     const Real shadowed = Real(0.5) / (lobe.n_dot_v + sqrt(a2 + (Real(1) - a2) * lobe.n_dot_v * lobe.n_dot_v));
-    const Real cosine = min(max(half.n_dot_h, Real(0)), Real(1));
-    return select(half.n_dot_h > Real(0), brdf::ggx_distribution(alpha, cosine, half.sin2), Real(0)) * shadowed;
+    const Lobe cosine = min(max(half.lobe_n_dot_h, Lobe(0)), Lobe(1));
+    const Lobe d = brdf::ggx_distribution(As<Lobe>::number(alpha), cosine, half.lobe_sin2);
+    return As<Real>::number(select(half.lobe_n_dot_h > Lobe(0), d, Lobe(0))) * shadowed;
   }
 
   Real weighted(Way way) const { return Real(static_cast<double>(counts_[index_of(way)])); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,6 +13,9 @@
 
 namespace sheen::golden {
 namespace {
+
+/// Of the brightest texels, which may be all that lights a surface.
+constexpr std::size_t most_brightest = 16;
 
 /// Where under a tent, from its middle, a number in [0, 1) lies.
 double under_tent(double x) {
@@ -58,6 +62,18 @@ DrawnImage::DrawnImage(const scene::Environment& environment, const glm::dmat3& 
   // d omega = 2 pi^2 sin(theta) du dv. Of a black image every texel has its share; there is nothing to miss.
   const double total = row_sums_.back();
   const double per_texel = static_cast<double>(w * h) / (2.0 * brdf::pi * brdf::pi);
+  std::vector<std::size_t> order(w * h);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t count = std::min(w * h, most_brightest);
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](std::size_t a, std::size_t b) { return brightness(a % w, a / w) > brightness(b % w, b / w); });
+  const scene::Environment upright;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec2 at((static_cast<double>(order[i] % w) + 0.5) / environment.width,
+                        (static_cast<double>(order[i] / w) + 0.5) / environment.height);
+    const glm::dvec3 d = upright.direction(at) * image_from_view_;
+    brightest_.push_back({d.x, d.y, d.z});
+  }
   for (double& density : densities_) {
     density = (total > 0 ? density / total : 1.0 / static_cast<double>(w * h)) * per_texel;
   }

@@ -58,6 +58,9 @@ class DrawnImage {
   };
   Seen look_up(const Vec3<Bound>& direction) const;
 
+  /// Directions of view space to the brightest texels.
+  const std::vector<Vec3<double>>& brightest() const { return brightest_; }
+
  private:
   /// Where a direction falls, in texels, and how far off a shader may find it.
   struct Place {
@@ -73,6 +76,7 @@ class DrawnImage {
   std::vector<double> densities_;   // of each texel, times the sine of the polar angle
   std::vector<double> row_sums_;    // of weights of the rows before, one more than there are
   std::vector<double> texel_sums_;  // in each row likewise
+  std::vector<Vec3<double>> brightest_;
 };
 
 }  // namespace sheen::golden

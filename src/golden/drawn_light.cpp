@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -57,6 +58,10 @@ Surface<Bound> undisplaced_surface(const Surface<Bound>& surface) {
   Surface<Bound> out;
   std::memcpy(static_cast<void*>(&out), static_cast<const void*>(each.data()), sizeof(out));
   return out;
+}
+
+Vec3<Bound> exactly(const Vec3<double>& v) {
+  return {Bound::within(v.x, 0), Bound::within(v.y, 0), Bound::within(v.z, 0)};
 }
 
 /// The numbers that a surface is about.
@@ -122,38 +127,57 @@ Color mirrors(const Surface<Bound>& surface, Layers layers, const Lighting& ligh
 DrawnLight::DrawnLight(const PixelBound& bound) : bound_(bound), triangles_(bound.frame().geometry, bound.frame().rays) {}
 
 template <class Lobe>
-glm::dvec3 DrawnLight::open(const Surface<Bound>& surface, Layers layers, const Lighting& lighting, const DrawnImage& image,
-                            const WayCounts& counts, int drawn, std::uint64_t stream) {
+DrawnLight::Open DrawnLight::open(const Surface<Bound>& surface, Layers layers, const Lighting& lighting, const DrawnImage& image,
+                                  const WayCounts& counts, int drawn, std::uint64_t stream) {
   // Whatever surface a shader holds, it draws and divides by that very surface.
   const Surface<double> center = centers(surface);
-  const DrawnDirections<Bound> directions(spread<Bound>(center), layers, counts);
+  const DrawnDirections<Bound, Lobe> directions(spread<Bound>(center), layers, counts);
   const Shading<Bound, Lobe> shading(surface, layers, lighting);
   const Shading<double, double> about(center, layers, lighting);
   const auto of_image = static_cast<double>(counts[index_of(Way::Image)]);
   const Color white{Bound(1), Bound(1), Bound(1)};
   Points points(stream);
   Off off;
+  glm::dvec3 largest(0.0);
+  // What a direction adds, if it lights anything.
+  const auto add = [&](const Vec3<Bound>& direction, const Bound* image_density, bool counts_as_drawn) {
+    Color none{Bound(0.0), Bound(0.0), Bound(0.0)};
+    const LightPart<Bound> part = shading.light({direction, white}, false, none);
+    if (!part.lit) {
+      return;
+    }
+    const DrawnImage::Seen there = image.look_up(direction);
+    const Bound density = directions.density(direction) + Bound(of_image) * (image_density != nullptr ? *image_density : there.density);
+    const Color light = with_light({Bound(0.0), Bound(0.0), Bound(0.0)}, layers, part.sheen, part.base, part.coat) * there.radiance;
+    const Color term{light.r / density, light.g / density, light.b / density};
+    largest = glm::max(largest, glm::abs(glm::dvec3(term.r.center(), term.g.center(), term.b.center())));
+    if (!counts_as_drawn) {
+      return;
+    }
+    brdf::Rgb<double> missed{0, 0, 0};  // by a shader that reads E once, see Shaded
+    about.light({{direction.x.center(), direction.y.center(), direction.z.center()}, {1, 1, 1}}, false, missed);
+    const glm::dvec3 of_lookup = glm::dvec3(missed.r, missed.g, missed.b) *
+                                 glm::dvec3(there.radiance.r.center(), there.radiance.g.center(), there.radiance.b.center());
+    off.add(term, of_lookup / density.center());
+  };
   for (std::size_t k = 0; k < way_count; ++k) {
     for (int i = 0; i < counts[k]; ++i) {
-      const auto way = static_cast<Way>(k);
-      const bool by_image = way == Way::Image;
-      const DrawnImage::Drawn drawn_there =
-          by_image ? image.draw(points.number(), points.number()) : DrawnImage::Drawn{directions.draw(way, points.point()), Bound(0.0)};
-      const Vec3<Bound> direction = displaced(drawn_there.direction);
-      Color none{Bound(0.0), Bound(0.0), Bound(0.0)};
-      const LightPart<Bound> part = shading.light({direction, white}, false, none);
-      if (!part.lit) {
-        continue;
+      if (static_cast<Way>(k) == Way::Image) {
+        const DrawnImage::Drawn drawn_there = image.draw(points.number(), points.number());
+        add(displaced(drawn_there.direction), &drawn_there.density, true);
+      } else {
+        add(displaced(directions.draw(static_cast<Way>(k), points.point())), nullptr, true);
       }
-      const DrawnImage::Seen there = image.look_up(direction);
-      const Bound density = directions.density(direction) + Bound(of_image) * (by_image ? drawn_there.density : there.density);
-      const Color light = with_light({Bound(0.0), Bound(0.0), Bound(0.0)}, layers, part.sheen, part.base, part.coat) * there.radiance;
-      brdf::Rgb<double> missed{0, 0, 0};  // by a shader that reads E once, see Shaded
-      about.light({{direction.x.center(), direction.y.center(), direction.z.center()}, {1, 1, 1}}, false, missed);
-      const glm::dvec3 of_lookup = glm::dvec3(missed.r, missed.g, missed.b) *
-                                   glm::dvec3(there.radiance.r.center(), there.radiance.g.center(), there.radiance.b.center());
-      off.add({light.r / density, light.g / density, light.b / density}, of_lookup / density.center());
     }
+  }
+  // Where one may bring more than those: toward the brightest of the image, and where a lobe is highest.
+  for (const Vec3<double>& bright : image.brightest()) {
+    add(exactly(bright), nullptr, false);
+  }
+  for (const LobeView<double>& lobe : {LobeView<double>(center.normal, center.view),
+                                       LobeView<double>(layers.clearcoat ? center.coat_normal : center.normal, center.view)}) {
+    add(exactly(lobe.n * (2 * dot(lobe.n, lobe.v)) - lobe.v), nullptr, false);
+    add(exactly(lobe.n), nullptr, false);
   }
   // However the directions fall: the variance of a sum of independent numbers is below the sum of their squares.
   const glm::dvec3 of_directions = off.deviation + standard_errors * glm::sqrt(off.squares);
@@ -163,13 +187,15 @@ glm::dvec3 DrawnLight::open(const Surface<Bound>& surface, Layers layers, const 
   // They are added up one by one; then occlusion weighs the sum.
   const double roundings = (drawn + static_cast<double>(way_count) + 2) * epsilon;
   const Bound& occlusion = surface.occlusion;
-  return (all.deviation + roundings * all.value) * occlusion.range().magnitude() + all.value * occlusion.deviation();
+  const double told = std::accumulate(counts.begin(), counts.end(), 0.0);
+  return {(all.deviation + roundings * all.value) * occlusion.range().magnitude() + all.value * occlusion.deviation(),
+          largest * (told / drawn * occlusion.range().magnitude())};
 }
 
-template glm::dvec3 DrawnLight::open<Bound>(const Surface<Bound>&, Layers, const Lighting&, const DrawnImage&, const WayCounts&, int,
-                                            std::uint64_t);
-template glm::dvec3 DrawnLight::open<number::Bounded<number::Mediump>>(const Surface<Bound>&, Layers, const Lighting&, const DrawnImage&,
-                                                                       const WayCounts&, int, std::uint64_t);
+template DrawnLight::Open DrawnLight::open<Bound>(const Surface<Bound>&, Layers, const Lighting&, const DrawnImage&, const WayCounts&, int,
+                                                  std::uint64_t);
+template DrawnLight::Open DrawnLight::open<number::Bounded<number::Mediump>>(const Surface<Bound>&, Layers, const Lighting&,
+                                                                             const DrawnImage&, const WayCounts&, int, std::uint64_t);
 
 // Of a normal map's levels, that of the golden: what another level changes counts elsewhere. As a map that bends a normal by one level
 // would, it errs by the normal's roundings in each of three axes and some 24 of its own.
@@ -192,7 +218,7 @@ Surface<Bound> DrawnLight::read(const Hit& hit, const Ray& ray, const Surface<do
 }
 
 // As shaders/background.frag finds the direction of a fragment, whose rows are counted from below.
-glm::dvec3 DrawnLight::open_background(const Ray& ray) const {
+DrawnLight::Open DrawnLight::open_background(const Ray& ray) const {
   const scene::View& view = bound_.frame().settings.view;
   const scene::Camera& camera = bound_.frame().rays.camera();
   const double up = camera.perspective ? std::tan(0.5 * camera.yfov) : 0.0;
@@ -202,13 +228,13 @@ glm::dvec3 DrawnLight::open_background(const Ray& ray) const {
   const Vec3<Bound> direction = unit_along(
       Vec3<Bound>{of_window(ray.x, width) * Bound(up * width / height), of_window(height - ray.y, height) * Bound(up), Bound(-1)});
   const Color seen = bound_.drawn_image()->radiance(displaced(direction));
-  return {seen.r.deviation(), seen.g.deviation(), seen.b.deviation()};
+  return {{seen.r.deviation(), seen.g.deviation(), seen.b.deviation()}, glm::dvec3(0.0)};
 }
 
-glm::dvec3 DrawnLight::open(const Seen& seen, const Ray& ray, const Surface<double>* surfaces, const double* opacities,
-                            const glm::dvec3& behind, std::uint64_t stream) {
+DrawnLight::Open DrawnLight::open(const Seen& seen, const Ray& ray, const Surface<double>* surfaces, const double* opacities,
+                                  const Open& behind, std::uint64_t stream) {
   const Frame& frame = bound_.frame();
-  glm::dvec3 sum = behind;
+  Open sum = behind;
   std::size_t layer = 0;
   seen.for_layers([&](const Hit& hit) {
     const int material = frame.geometry.placed(hit.triangle).material_index;
@@ -217,9 +243,10 @@ glm::dvec3 DrawnLight::open(const Seen& seen, const Ray& ray, const Surface<doub
     const auto of = mediump ? &DrawnLight::open<number::Bounded<number::Mediump>> : &DrawnLight::open<Bound>;
     const Layers layers = frame.reader.layers(material);
     const WayCounts counts = drawn_counts(surfaces[layer], layers, bound_.drawn_image()->has_image(), told_by);
-    const glm::dvec3 light =
+    const Open light =
         of(surface, layers, bound_.lighting(material), *bound_.drawn_image(), counts, frame.settings.drawn_directions, stream * 64 + layer);
-    sum = light * opacities[layer] + sum * (1.0 - opacities[layer]);
+    const double a = opacities[layer];
+    sum = {light.off * a + sum.off * (1.0 - a), light.largest * a + sum.largest * (1.0 - a)};
     ++layer;
   });
   return sum;

@@ -18,6 +18,11 @@ namespace sheen::golden {
 /// a thread.
 class DrawnLight {
  public:
+  struct Open {
+    glm::dvec3 off{0.0};      ///< radiance
+    glm::dvec3 largest{0.0};  ///< the most of the radiance that one direction of a picture brings, as far as those looked at tell
+  };
+
   /// The argument must outlive this; its frame has an environment toward which directions are drawn.
   explicit DrawnLight(const PixelBound& bound);
 
@@ -26,18 +31,18 @@ class DrawnLight {
   /// @param opacities  of the same
   /// @param behind  what is behind them may be off by
   /// @param stream  a number that no other pixel has
-  glm::dvec3 open(const Seen& seen, const Ray& ray, const Surface<double>* surfaces, const double* opacities, const glm::dvec3& behind,
-                  std::uint64_t stream);
+  Open open(const Seen& seen, const Ray& ray, const Surface<double>* surfaces, const double* opacities, const Open& behind,
+            std::uint64_t stream);
 
   /// Of the environment itself, where a ray through a pixel's centre shows it.
-  glm::dvec3 open_background(const Ray& ray) const;
+  Open open_background(const Ray& ray) const;
 
   /// Of one surface in view space.
   /// @param counts  of the directions that this looks at
   /// @param drawn   directions that a picture draws: it adds up as many
   template <class Lobe>
-  static glm::dvec3 open(const Surface<Bound>& surface, Layers layers, const Lighting& lighting, const DrawnImage& image,
-                         const WayCounts& counts, int drawn, std::uint64_t stream);
+  static Open open(const Surface<Bound>& surface, Layers layers, const Lighting& lighting, const DrawnImage& image, const WayCounts& counts,
+                   int drawn, std::uint64_t stream);
 
  private:
   Surface<Bound> read(const Hit& hit, const Ray& ray, const Surface<double>& truth);

@@ -294,7 +294,7 @@ class Open {
     lighting.albedo.interpolant = &interpolant_;
     lighting.sheen.scaling = scaling;
     const DrawnImage image(white_, glm::dmat3(1.0));
-    return DrawnLight::open<Lobe>(spread<Bound>(s), layers, lighting, image, drawn_counts(s, layers, false, 64), drawn, 5).x;
+    return DrawnLight::open<Lobe>(spread<Bound>(s), layers, lighting, image, drawn_counts(s, layers, false, 64), drawn, 5).off.x;
   }
 
  private:
@@ -322,6 +322,36 @@ TEST(DrawnLight, EachDirectionThatIsAddedRoundsTheSum) {
   const auto of = [&](int drawn) { return open.of(white, {}, albedo::AlbedoScaling::Full, drawn); };
   // A white Lambertian shows 1, as 64 directions have it to some hundredths.
   EXPECT_NEAR(of(4096 + 1000) - of(4096), 1000 * epsilon, 0.1 * 1000 * epsilon);
+}
+
+TEST(DrawnLight, OneDirectionBringsItsShareAndTowardALampAllOfIt) {
+  // Of a white Lambertian under white light each of n directions brings near 1 / n.
+  scene::Environment sky;
+  sky.uniform = glm::dvec3(1.0);
+  Surface<double> white = lacquered_cloth(0.8, 0.5, 0.3);
+  white.base = {{1, 1, 1}, 0, 0.5, {0.04, 0.04, 0.04}, 0};
+  const Lighting lighting{};
+  const auto largest = [&](bool has_image, int drawn) {
+    const DrawnImage image(sky, glm::dmat3(1.0));
+    return DrawnLight::open<Bound>(spread<Bound>(white), {}, lighting, image, drawn_counts(white, {}, has_image, 64), drawn, 5).largest.x;
+  };
+  EXPECT_GT(largest(false, 256), 1.0 / 256);
+  EXPECT_LT(largest(false, 256), 1.5 / 256);
+  EXPECT_NEAR(largest(false, 1024), 0.25 * largest(false, 256), 1e-12);
+  // A lamp before the surface, and one of a hundred times its light behind: next to no direction meets the one that is all there is.
+  sky.width = 64;
+  sky.height = 32;
+  sky.texels.assign(64 * 32, glm::vec3(0.0F));
+  const auto at = [&sky](const glm::dvec3& d) -> glm::vec3& {
+    const glm::dvec2 uv = sky.coordinates(glm::normalize(d));
+    return sky.texels[static_cast<std::size_t>(uv.y * 32) * 64 + static_cast<std::size_t>(uv.x * 64)];
+  };
+  at({0.3, 0.3, 1.0}) = glm::vec3(1.0F);
+  at({0.3, 0.3, -1.0}) = glm::vec3(100.0F);
+  const double cosine = dot(white.normal, Vec3<double>{0.276, 0.276, 0.92});
+  const double shown = cosine / brdf::pi * 2 * brdf::pi * brdf::pi / (64 * 32) * 0.96;  // of one texel's solid angle
+  EXPECT_GT(largest(true, 256), 0.3 * shown) << "a hundredth of half of 256 directions";
+  EXPECT_LT(largest(true, 256), 3 * shown);
 }
 
 TEST(DrawnLight, OcclusionDimsWhatItIsOffByToo) {
@@ -362,7 +392,7 @@ TEST(DrawnLight, OfAMirrorIsWhatItsLookupRounds) {
   s.base.color = {1, 1, 1};
   const Lighting lighting{};
   const WayCounts counts = drawn_counts(s, {}, true, 64);
-  const glm::dvec3 off = DrawnLight::open<Bound>(spread<Bound>(s), {}, lighting, image, counts, 256, 1);
+  const glm::dvec3 off = DrawnLight::open<Bound>(spread<Bound>(s), {}, lighting, image, counts, 256, 1).off;
   const Vec3<double> mirrored = s.normal * (2 * dot(s.normal, s.view)) - s.view;
   const double shown = sky.radiance({mirrored.x, mirrored.y, mirrored.z}).x;
   EXPECT_GT(off.x, 2e-6 * shown);

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "brdf/math.h"
+#include "golden/image_lookup.h"
 
 namespace sheen::golden {
 namespace {
@@ -50,6 +53,30 @@ std::vector<glm::vec3> part(const scene::Environment& environment, double limit,
   return texels;
 }
 
+// Directions to the brightest texels.
+std::vector<glm::dvec3> brightest(const scene::Environment& environment) {
+  constexpr std::size_t most = 16;
+  std::vector<std::size_t> order(environment.texels.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t count = std::min(most, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](std::size_t a, std::size_t b) { return brightness(environment.texels[a]) > brightness(environment.texels[b]); });
+  std::vector<glm::dvec3> directions;
+  const auto width = static_cast<std::size_t>(environment.width);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto x = static_cast<double>(order[i] % width);
+    const auto y = static_cast<double>(order[i] / width);
+    directions.push_back(environment.direction({(x + 0.5) / environment.width, (y + 0.5) / environment.height}));
+  }
+  return directions;
+}
+
+// What a part of the light holds in a direction.
+LightPoint held(const ImageTexels& part, const glm::dvec3& d) {
+  const Arrived<double> there = look_up(part, ImagePlace<double>(part, Vec3<double>{d.x, d.y, d.z}));
+  return {d.x, d.y, d.z, there.radiance.r, there.radiance.g, there.radiance.b, there.density};
+}
+
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const scene::Environment& environment)
@@ -57,6 +84,13 @@ EnvironmentLight::EnvironmentLight(const scene::Environment& environment)
       soft_(environment.width, environment.height, part(environment, threshold(environment), false), environment.rotation),
       bright_(environment.width, environment.height, part(environment, threshold(environment), true), environment.rotation),
       slow_(soft_.texels()) {
+  for (const glm::dvec3& direction : brightest(environment)) {
+    for (const auto& [part, points] : {std::pair(&soft_, &soft_brightest_), std::pair(&bright_, &bright_brightest_)}) {
+      if (!part->dark()) {
+        points->push_back(held(part->texels(), direction));
+      }
+    }
+  }
   if (bright_.dark()) {
     return;
   }

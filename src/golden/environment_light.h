@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <glm/vec3.hpp>
 
 #include "golden/band_limited.h"
@@ -18,6 +20,9 @@ class EnvironmentLight {
   glm::dvec3 radiance(const glm::dvec3& direction) const { return environment_.radiance(direction); }
   const ImageLight& soft() const { return soft_; }
   const ImageLight& bright() const { return bright_; }
+  /// What each part holds toward the brightest texels of the whole, which may be all that lights a surface.
+  const std::vector<LightPoint>& soft_brightest() const { return soft_brightest_; }
+  const std::vector<LightPoint>& bright_brightest() const { return bright_brightest_; }
   /// What of the soft part varies slowly.
   const BandLimited& slow() const { return slow_; }
   /// Whether what is bright lies apart (lamps), not in one place (the sun).
@@ -28,6 +33,7 @@ class EnvironmentLight {
  private:
   const scene::Environment& environment_;
   ImageLight soft_, bright_;
+  std::vector<LightPoint> soft_brightest_, bright_brightest_;
   BandLimited slow_;
   Vec3<double> bright_axis_{0, 1, 0};  // of a cone that holds all that is bright
   double bright_sine_ = 1.0;           // of its half angle; 1: no such cone below a hemisphere

@@ -97,6 +97,25 @@ ImageSums replica_sum(const ImageSumTask& task, const DirectionPool& pool, std::
   return sum;
 }
 
+// The most that one direction toward the brightest of the image adds to a sum.
+Color largest_of(const ImageSumTask& task, const EnvironmentLight& light) {
+  Color largest{0, 0, 0};
+  for (const Strategy strategy : {Strategy::Soft, Strategy::Bright}) {
+    const std::size_t k = index_of(strategy);
+    if (task.sampling->weights[k] == 0) {
+      continue;
+    }
+    for (const LightPoint& point : strategy == Strategy::Soft ? light.soft_brightest() : light.bright_brightest()) {
+      StrategyPoints points;
+      points.count[k] = 1;
+      points.light[k] = &point;
+      const Color added = image_sum_scalar(task, points).radiance;
+      largest = {std::max(largest.r, added.r), std::max(largest.g, added.g), std::max(largest.b, added.b)};
+    }
+  }
+  return largest;
+}
+
 struct Task {
   Surface<double> dark;
   ImageSumTask sum;
@@ -134,6 +153,9 @@ bool EnvironmentEstimate::refine(const Surface<double>& surface, CurveCache& cur
     return false;
   }
   Task task(surface, layers_, *lighting_, sampling_, curves);
+  if (points_ == 0) {
+    largest_ = largest_of(task.sum, *lighting_->light);
+  }
   if (points_ == 0 && sampling_.weights[index_of(Strategy::Soft)] > 0) {
     control_ = control_variate(task.dark, layers_, task.sum.lighting);
     known_ = integral(control_, lighting_->light->slow());
@@ -162,6 +184,7 @@ Estimate EnvironmentEstimate::value() const {
     const ControlledMean mean(means, known_.*channel);
     out.mean.*channel += mean.value * occlusion_;
     out.standard_error.*channel = mean.standard_error * student * occlusion_;
+    out.largest.*channel = largest_.*channel / (static_cast<double>(points_) * replicas) * occlusion_;
   }
   return out;
 }

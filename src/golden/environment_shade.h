@@ -13,6 +13,7 @@ namespace sheen::golden {
 /// A mean with its standard error, each a radiance.
 struct Estimate {
   brdf::Rgb<double> mean{0, 0, 0}, standard_error{0, 0, 0};
+  brdf::Rgb<double> largest{0, 0, 0};  ///< the most of it that one direction brings, of those toward the brightest of the image
 };
 
 /// What lights every surface of a picture. Pointers outlive their use.
@@ -57,7 +58,8 @@ class EnvironmentEstimate {
   std::uint32_t directions_a_point_;
   std::uint32_t points_ = 0;
   ControlVariate control_;
-  brdf::Rgb<double> known_{0, 0, 0};  // its integral
+  brdf::Rgb<double> known_{0, 0, 0};    // its integral
+  brdf::Rgb<double> largest_{0, 0, 0};  // times points and replicas
   std::array<ImageSums, replicas> sums_{};
 };
 

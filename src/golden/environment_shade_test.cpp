@@ -291,5 +291,32 @@ TEST(EnvironmentShade, DrawsNoMoreDirectionsThanAsked) {
   }
 }
 
+TEST(EnvironmentEstimate, ALampThatMostDirectionsMissIsFoundOrCountedAsMissed) {
+  // Before the surface a lamp, behind it one of a hundred times its light, toward which nearly all of the image's directions go.
+  scene::Environment lamps = image_of(64, 32, [](int, int) { return glm::vec3(0.0F); });
+  const auto at = [&lamps](const glm::dvec3& d) -> glm::vec3& {
+    const glm::dvec2 uv = lamps.coordinates(glm::normalize(d));
+    return lamps.texels[static_cast<std::size_t>(uv.y * 32) * 64 + static_cast<std::size_t>(uv.x * 64)];
+  };
+  at({0.5, 0.8, 0.3}) = glm::vec3(100.0F);
+  at({-0.5, -0.8, -0.3}) = glm::vec3(1.0F);
+  const EnvironmentLight light(lamps);
+  Surface<double> surface{};
+  surface.normal = surface.coat_normal = surface.view = {-0.5, -0.8, -0.33};
+  const double length = std::sqrt(dot(surface.normal, surface.normal));
+  surface.normal = surface.coat_normal = surface.view = surface.normal * (1 / length);
+  surface.base = {{0.5, 0.5, 0.5}, 0, 0.5, {0.04, 0.04, 0.04}, 0};
+  surface.occlusion = 1;
+  const Estimate truth = estimate(surface, {}, {}, light, {0.001, 1u << 22, 1});
+  ASSERT_GT(truth.mean.g, 0.0);
+  int missed = 0;
+  for (std::uint64_t stream = 1; stream <= 300; ++stream) {
+    const Estimate few = estimate(surface, {}, {}, light, {1.0, 700, 1}, stream);
+    EXPECT_LE(std::abs(few.mean.g - truth.mean.g), standard_errors * few.standard_error.g + missed_directions * few.largest.g);
+    missed += few.mean.g < 0.01 * truth.mean.g ? 1 : 0;
+  }
+  EXPECT_GT(missed, 3) << "of 300 some meet none of its light, and show no error";
+}
+
 }  // namespace
 }  // namespace sheen::golden

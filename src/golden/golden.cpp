@@ -43,9 +43,20 @@ void store(const Pixel& pixel, bool bounds, int x, int y, image::Image& out) {
   put(7, static_cast<double>(pixel.excluded));
   put(8, pixel.mirrored ? 1.0 : 0.0);
   out.at(x, y, 9) = pixel.coverage_bound > 0.0 ? stored_bound(pixel.coverage_bound, pixel.coverage) : 0.0F;
-  for (int c = 0; c < 3 && out.channels.size() > 10; ++c) {
-    put(10 + c, pixel.standard_error[c]);
+  const int errors = out.channel("standard_error.R");
+  const int directions = out.channel("direction.R");
+  for (int c = 0; c < 3; ++c) {
+    if (errors >= 0) {
+      put(errors + c, pixel.standard_error[c]);
+    }
+    if (directions >= 0) {
+      put(directions + c, pixel.direction[c]);
+    }
   }
+}
+
+bool bound_of_directions(const Settings& settings) {
+  return settings.environment != nullptr && settings.drawn_directions > 0;
 }
 
 // Writes the terms down as the shading passes them.
@@ -74,6 +85,9 @@ image::Image render(const scene::Scene& scene, const Settings& settings) {
     channels.insert(channels.end(), {"bound.R", "bound.G", "bound.B", "excluded", "mirrored", "bound.A"});
     if (frame.environment) {
       channels.insert(channels.end(), {"standard_error.R", "standard_error.G", "standard_error.B"});
+    }
+    if (bound_of_directions(settings)) {
+      channels.insert(channels.end(), {"direction.R", "direction.G", "direction.B"});
     }
   }
   image::Image out(settings.view.width, settings.view.height, std::move(channels));

@@ -200,7 +200,7 @@ Tile::Plan Tile::plan(int x, int y) {
   }
   plan.last_group = static_cast<std::uint32_t>(lod_group_ends_.size());
   if (drawn_light_ && plan.excluded == Exclusion::None) {
-    plan.drawn = roundings_of_drawn(plan);
+    plan.drawn = open_of_drawn(plan);
   }
   return plan;
 }
@@ -238,6 +238,7 @@ Tile::Composed Tile::compose(const Sample& sample, bool refined) const {
       const std::uint32_t surface = layers_[i].surface;
       from_environment = dvec3(coarse_[surface]) + (refined ? dvec3(refinement_[surface]) : glm::dvec3(0.0));
       out.standard_error = dvec3(standard_error_[surface]) * a + out.standard_error * (1.0 - a);
+      out.largest = dvec3(largest_[surface]) * a + out.largest * (1.0 - a);
     }
     out.radiance = (dvec3(s.radiance) + from_environment) * a + out.radiance * (1.0 - a);
     out.direct = dvec3(s.radiance) * a + out.direct * (1.0 - a);
@@ -281,9 +282,10 @@ Pixel Tile::finish(const Plan& plan) const {
   pixel.radiance = full.radiance;
   pixel.coverage = centre.coverage;
   pixel.standard_error = full.standard_error;
+  pixel.direction = plan.drawn.largest;
   const Enclosed bounded = bounded_ ? enclosed(plan, centre.direct) : Enclosed{};
-  const glm::dvec4 open = bounded.deviation + glm::dvec4(change + plan.drawn, 0.0);
-  pixel.bound = glm::dvec3(open) + centre.lookup + standard_errors * full.standard_error;
+  const glm::dvec4 open = bounded.deviation + glm::dvec4(change + plan.drawn.off, 0.0);
+  pixel.bound = glm::dvec3(open) + centre.lookup + standard_errors * full.standard_error + missed_directions * full.largest;
   pixel.coverage_bound = shows_background() ? 0.0 : open.w;
   pixel.excluded = plan.excluded;
   const bool promised = std::isfinite(open.x) && std::isfinite(open.y) && std::isfinite(open.z) && std::isfinite(open.w);

@@ -31,6 +31,7 @@ struct Pixel {
   glm::dvec3 bound{0.0};
   double coverage_bound = 0.0;
   glm::dvec3 standard_error{0.0};  ///< of the light of an image
+  glm::dvec3 direction{0.0};       ///< the most that one direction of a shader brings, see DrawnLight
   Exclusion excluded = Exclusion::None;
   bool mirrored = false;
 };
@@ -64,10 +65,10 @@ class Tile {
     std::uint32_t centre, shifted_end, first_group, last_group;
     Exclusion excluded;
     std::size_t first_bound, last_bound;  // with bounds, of bounded_: light but an environment's, and coverage
-    glm::dvec3 drawn{0.0};                // see DrawnLight
+    DrawnLight::Open drawn{};             // of directions that a shader draws
   };
   struct Composed {
-    glm::dvec3 radiance{0.0}, lookup{0.0}, standard_error{0.0};
+    glm::dvec3 radiance{0.0}, lookup{0.0}, standard_error{0.0}, largest{0.0};
     glm::dvec3 direct{0.0};  // what of the radiance is no environment's
     double coverage = 0.0;
     bool mirrored = false;
@@ -84,7 +85,7 @@ class Tile {
   void add_shifted();
   void add_carried_on();
   bool add_nudged(const Plan& plan);
-  glm::dvec3 roundings_of_drawn(const Plan& plan);
+  DrawnLight::Open open_of_drawn(const Plan& plan);
   bool seen_before(std::size_t look) const;
   bool mask_uncertain(double step) const;
   void add_sample(const Seen& seen, const Ray& ray);
@@ -132,7 +133,7 @@ class Tile {
   std::vector<Shaded<double>> shaded_;  // of surfaces_, those at pixel centres: what punctual lights and emission bring
   // Of an environment's light on surfaces_: with bounds, by few nodes or from few directions, the same for all surfaces of a pixel, so that
   // their differences tell what a moved sample changes; and, of those at pixel centres, what is left to the full estimate.
-  std::vector<brdf::Rgb<double>> coarse_, refinement_, standard_error_;
+  std::vector<brdf::Rgb<double>> coarse_, refinement_, standard_error_, largest_;
   std::vector<LayerRef> layers_;
   std::vector<Sample> samples_;
   std::vector<std::uint32_t> lod_group_ends_;  // into samples_

@@ -32,10 +32,10 @@ void Tile::for_surfaces(std::uint32_t begin, std::uint32_t end, const Function& 
   }
 }
 
-// What a shader's directions round, of the surfaces that a pixel's centre shows, and its look-up of what is behind them.
-glm::dvec3 Tile::roundings_of_drawn(const Plan& plan) {
+// Of the surfaces that a pixel's centre shows, and of the look-up of what is behind them.
+DrawnLight::Open Tile::open_of_drawn(const Plan& plan) {
   const Look& look = looks_[0];
-  const glm::dvec3 behind = shows_background() ? drawn_light_->open_background(look.ray) : glm::dvec3(0.0);
+  const DrawnLight::Open behind = shows_background() ? drawn_light_->open_background(look.ray) : DrawnLight::Open{};
   const Sample& centre = samples_[plan.centre];
   if (centre.count == 0) {
     return behind;
@@ -52,6 +52,7 @@ void Tile::add_environment_light(const std::vector<Plan>& plans) {
   coarse_.assign(surfaces_.size(), zero);
   refinement_.assign(surfaces_.size(), zero);
   standard_error_.assign(surfaces_.size(), zero);
+  largest_.assign(surfaces_.size(), zero);
   if (frame_.environment) {
     add_image_light(plans);
   } else {
@@ -96,14 +97,16 @@ void Tile::add_coarse_light(const std::vector<Plan>& plans, const ImageLighting&
   });
 }
 
-// Of the channel where it is largest. A channel that is dark beside the others counts as a thousandth of them.
+// Of the channel where it is largest. A channel that is dark beside the others counts as a thousandth of them. What one direction brings
+// counts as an error: as long as that is much, all may have missed as much, and show none.
 double Tile::relative_error(const Sample& sample) const {
   const Composed full = compose(sample, true);
   const double brightest = std::max({full.radiance.r, full.radiance.g, full.radiance.b});
   double largest = 0.0;
   for (int c = 0; c < 3; ++c) {
-    if (full.standard_error[c] > 0.0) {
-      largest = std::max(largest, full.standard_error[c] / std::max(full.radiance[c], 1e-3 * brightest));
+    const double error = std::max(full.standard_error[c], full.largest[c]);
+    if (error > 0.0) {
+      largest = std::max(largest, error / std::max(full.radiance[c], 1e-3 * brightest));
     }
   }
   return largest;
@@ -146,6 +149,7 @@ void Tile::add_image_light(const std::vector<Plan>& plans) {
         const Estimate now = estimate.value();
         refinement_[surface] = now.mean + coarse_[surface] * -1.0;
         standard_error_[surface] = now.standard_error;
+        largest_[surface] = now.largest;
       }
       if (!drew) {
         ++exhausted;
