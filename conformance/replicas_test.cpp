@@ -51,6 +51,12 @@ TEST(Replicas, OfOtherSeedsAreOthers) {
         environment_replicas, seed);
   }
   EXPECT_EQ(seeds.size(), 100U * environment_replicas);
+  draw_replicas(
+      [&](std::uint64_t one) {
+        EXPECT_NE(one, 0U) << "seed 0 moves no point";
+        return pixel(0, 0, 0, 0);
+      },
+      environment_replicas, (std::uint64_t{1} << 60U) - 1);  // of which the last would be 2^64
 }
 
 TEST(Replicas, WhatOneDoesNotKnowNoMeanKnows) {
