@@ -69,8 +69,10 @@ DrawnImage::DrawnImage(const scene::Environment& environment, const glm::dmat3& 
                     [&](std::size_t a, std::size_t b) { return brightness(a % w, a / w) > brightness(b % w, b / w); });
   const scene::Environment upright;
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec2 at((static_cast<double>(order[i] % w) + 0.5) / environment.width,
-                        (static_cast<double>(order[i] / w) + 0.5) / environment.height);
+    const std::size_t row = order[i] / w;
+    const auto x = static_cast<double>(order[i] - row * w);
+    const auto y = static_cast<double>(row);
+    const glm::dvec2 at((x + 0.5) / environment.width, (y + 0.5) / environment.height);
     const glm::dvec3 d = upright.direction(at) * image_from_view_;
     brightest_.push_back({d.x, d.y, d.z});
   }

@@ -64,8 +64,9 @@ std::vector<glm::dvec3> brightest(const scene::Environment& environment) {
   std::vector<glm::dvec3> directions;
   const auto width = static_cast<std::size_t>(environment.width);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto x = static_cast<double>(order[i] % width);
-    const auto y = static_cast<double>(order[i] / width);
+    const std::size_t row = order[i] / width;
+    const auto x = static_cast<double>(order[i] - row * width);
+    const auto y = static_cast<double>(row);
     directions.push_back(environment.direction({(x + 0.5) / environment.width, (y + 0.5) / environment.height}));
   }
   return directions;
