@@ -2,18 +2,19 @@
 #include "golden/drawn_light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "albedo/interpolant.h"
 #include "golden/bounded_albedo.h"
+#include "golden/drawn_fixture_test.h"
 #include "golden/ggx_range.h"
-#include "golden/perturbed_shading_test.h"
 #include "golden/sheen_range.h"
 #include "golden/test_scenes.h"
 #include "number/bounded_functions.h"
@@ -21,184 +22,7 @@
 namespace sheen::golden {
 namespace {
 
-using Shader = number::test::Perturbed<number::Highp>;
-
-/// Numbers that floats hold, so that a shader holds the same.
-Surface<double> in_floats(const Surface<double>& surface) {
-  constexpr std::size_t numbers = sizeof(Surface<double>) / sizeof(double);
-  std::array<double, numbers> each;
-  std::memcpy(each.data(), &surface, sizeof(surface));
-  std::transform(each.begin(), each.end(), each.begin(), [](double x) { return static_cast<double>(static_cast<float>(x)); });
-  Surface<double> out;
-  std::memcpy(&out, each.data(), sizeof(out));
-  return out;
-}
-
-Surface<double> lacquered_cloth(double cosine, double alpha, double sheen_roughness) {
-  Surface<double> s{};
-  s.view = {0, 0, 1};
-  s.normal = {std::sqrt(1 - cosine * cosine), 0, cosine};
-  s.coat_normal = {0.1 * std::sqrt(1 - cosine * cosine), std::sqrt(0.99 * (1 - cosine * cosine)), cosine};
-  s.base = {{0.4, 0.3, 0.2}, 0.5, alpha, {0.04, 0.04, 0.04}, 1.0};
-  s.sheen_color = {0.8, 0.6, 0.7};
-  s.sheen_roughness = sheen_roughness;
-  s.clearcoat = 1;
-  s.coat_alpha = 0.05;
-  s.occlusion = 1;
-  return in_floats(s);
-}
-
-struct Random {
-  std::mt19937_64 source{11};
-
-  double number() { return std::uniform_real_distribution<double>(0.0, 1.0)(source); }
-  float inside() { return std::clamp(static_cast<float>(number()), 0x1p-32F, 1.0F - 0x1p-24F); }
-};
-
-TEST(DrawnLight, DirectionsFallAsDenselyAsTheyAreToldTo) {
-  // Divided by the density, everything counts alike: 1 gives the sphere, the direction nothing, its first squares a third.
-  const Layers layers{true, true, false};
-  for (const double cosine : {0.15, 0.7}) {
-    const Surface<double> s = lacquered_cloth(cosine, 0.1, 0.5);
-    WayCounts counts = drawn_counts(s, layers, false, 200);
-    EXPECT_EQ(counts[index_of(Way::Image)], 0);
-    for (int& count : counts) {
-      count *= 1500;
-    }
-    const DrawnDirections<double> directions(s, layers, counts);
-    Random random;
-    double sphere = 0;
-    glm::dvec3 first(0.0), second(0.0);
-    for (std::size_t way = 0; way < way_count; ++way) {
-      for (int i = 0; i < counts[way]; ++i) {
-        const double phi = 2 * brdf::pi * random.number();
-        const Vec3<double> d = directions.draw(static_cast<Way>(way), {random.number(), std::cos(phi), std::sin(phi)});
-        EXPECT_NEAR(dot(d, d), 1, 3e-7);
-        const double weight = 1 / directions.density(d);
-        const glm::dvec3 v(d.x, d.y, d.z);
-        sphere += weight;
-        first += weight * v;
-        second += weight * v * v;
-      }
-    }
-    // Where the sphere's way alone draws, each counts for a hundred others.
-    EXPECT_NEAR(sphere, 4 * brdf::pi, 0.15);
-    for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(first[k], 0, 0.1) << k;
-      EXPECT_NEAR(second[k], 4 * brdf::pi / 3, 0.1) << k;
-    }
-  }
-}
-
-TEST(DrawnLight, WaysDrawAsTheMaterialAsks) {
-  Surface<double> s = lacquered_cloth(0.8, 0.0, 0.0);
-  const auto counts = [&s](Layers layers, bool image) { return drawn_counts(s, layers, image, 1000); };
-  WayCounts plain = counts({}, false);
-  EXPECT_EQ(plain[index_of(Way::Ggx)], 0) << "no drawn direction meets a mirror";
-  EXPECT_GT(plain[index_of(Way::Cosine)], 900);
-  EXPECT_EQ(counts({true, false, false}, false)[index_of(Way::Sheen)], 0) << "there is no sheen at roughness 0";
-  s = lacquered_cloth(0.8, 0.3, 0.4);
-  plain = counts({true, true, false}, true);
-  for (const int count : plain) {
-    EXPECT_GT(count, 0);
-  }
-  EXPECT_NEAR(plain[index_of(Way::Image)], 500, 5) << "as many as all others";
-}
-
-/// f / p of one direction under light of 1, in any arithmetic.
-template <class Real>
-brdf::Rgb<Real> term(const Shading<Real, Real>& shading, Layers layers, const Vec3<Real>& direction, const Real& density) {
-  const Real one(1), zero(0);
-  brdf::Rgb<Real> lookup{zero, zero, zero};
-  const LightPart<Real> part = shading.light({direction, {one, one, one}}, false, lookup);
-  const brdf::Rgb<Real> f = with_light<Real>({zero, zero, zero}, layers, part.sheen, part.base, part.coat);
-  return {f.r / density, f.g / density, f.b / density};
-}
-
-TEST(DrawnLight, ADisplacedDirectionIsEveryOneThatMayBeDrawn) {
-  Random random;
-  for (int i = 0; i < 2000; ++i) {
-    const glm::dvec3 d = glm::normalize(glm::dvec3(random.number() - 0.5, random.number() - 0.5, random.number() - 0.5));
-    const double off = std::pow(10.0, -7.0 + 4.0 * random.number());
-    const Vec3<Bound> moved = displaced({Bound::within(d.x, off), Bound::within(d.y, off), Bound::within(d.z, off)});
-    const glm::dvec3 across(moved.x.shift_x(), moved.y.shift_x(), moved.z.shift_x());
-    const glm::dvec3 along(moved.x.shift_y(), moved.y.shift_y(), moved.z.shift_y());
-    // The farthest corner of the box, brought back to length 1 but for roundings.
-    const glm::dvec3 corner(random.number() < 0.5 ? -off : off, random.number() < 0.5 ? -off : off, random.number() < 0.5 ? -off : off);
-    const glm::dvec3 one = (d + corner - glm::dot(corner, d) * d) / std::sqrt(1 + glm::dot(corner, corner)) * (1 + 4 * epsilon);
-    const glm::dvec3 by = one - d;
-    const double u = glm::dot(by, across) / glm::dot(across, across);
-    const double v = glm::dot(by, along) / glm::dot(along, along);
-    EXPECT_LE(std::abs(u), 1);
-    EXPECT_LE(std::abs(v), 1);
-    const glm::dvec3 rest = by - u * across - v * along;
-    EXPECT_LE(std::abs(rest.x), moved.x.radius());
-    EXPECT_LE(std::abs(rest.y), moved.y.radius());
-    EXPECT_LE(std::abs(rest.z), moved.z.radius());
-  }
-}
-
-TEST(DrawnLight, HoldsWhatAShaderMakesOfADirection) {
-  const albedo::Interpolant interpolant(albedo::Visibility::Charlie);
-  Lighting lighting;
-  lighting.albedo.interpolant = &interpolant;
-  number::test::Decisions::current().seed(4);
-  Random random;
-  long evaluations = 0;
-  long escapes = 0;
-  std::vector<double> relative;
-  std::vector<double> reached;
-  for (const Layers layers : {Layers{}, Layers{true, false, false}, Layers{true, true, false}}) {
-    for (const double cosine : {0.02, 0.3, 0.9}) {
-      for (const double alpha : {0.02, 0.3}) {
-        const Surface<double> s = lacquered_cloth(cosine, alpha, 0.25 + alpha);
-        const WayCounts counts = drawn_counts(s, layers, false, 60);
-        const Surface<Bound> uncertain = spread<Bound>(s);
-        const Surface<Shader> held = spread<Shader>(s);
-        const DrawnDirections<Bound> bounds(uncertain, layers, counts);
-        const Shading<Bound, Bound> bounded(uncertain, layers, lighting);
-        for (std::size_t way = 0; way < index_of(Way::Image); ++way) {
-          for (int i = 0; i < counts[way]; ++i) {
-            const double x = random.inside();
-            const double phi = 2 * brdf::pi * random.number();
-            const double c = static_cast<float>(std::cos(phi));
-            const double sine = static_cast<float>(std::sin(phi));
-            const Vec3<Bound> direction = displaced(bounds.draw(static_cast<Way>(way), {Bound(x), Bound(c), Bound(sine)}));
-            const Bound bound = term(bounded, layers, direction, bounds.density(direction)).r;
-            ASSERT_TRUE(bound.is_bounded()) << way << " " << x << " at " << cosine << " " << alpha;
-            if (bound.center() > 0) {
-              relative.push_back(bound.deviation() / bound.center());
-            }
-            const auto drawn_light = [&] {
-              const DrawnDirections<Shader> drawn(held, layers, counts);
-              const Shading<Shader, Shader> shading(held, layers, lighting);
-              const Vec3<Shader> there = drawn.draw(static_cast<Way>(way), {Shader(x), Shader(c), Shader(sine)});
-              return term(shading, layers, there, drawn.density(there)).r.value();
-            };
-            const double worst = number::test::worst_of(i % 8 == 0 ? 600 : 30, drawn_light, [&](double value) {
-              ++evaluations;
-              escapes += std::abs(value - bound.center()) <= bound.deviation() ? 0 : 1;
-              return std::abs(value - bound.center());
-            });
-            if (bound.deviation() > 0 && bound.center() > 0 && i % 8 == 0) {
-              reached.push_back(worst / bound.deviation());
-            }
-          }
-        }
-      }
-    }
-  }
-  EXPECT_EQ(escapes, 0) << "of " << evaluations;
-  EXPECT_GT(evaluations, 30000);
-  const auto median = [](std::vector<double>& values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-  };
-  EXPECT_LT(median(relative), 2e-4) << "what f and p are off by together cancels";
-  // Roundings of the half vector, which f and p share, count twice.
-  EXPECT_GT(median(reached), 0.03) << "of the bound, by the worst that was found";
-  std::cout << "relative bound " << median(relative) << ", the worst reaches " << median(reached) << " of it\n";
-}
+using test::Random;
 
 TEST(DrawnLight, AnglesAreThoseOfAnArcTangent) {
   EXPECT_EQ(angle_of(0.0, 0.0), 0);
@@ -305,19 +129,19 @@ class Open {
 TEST(DrawnLight, HoldsWhatReadingEOnceMisses) {
   const Open open;
   const Layers cloth{true, false, false};
-  Surface<double> s = lacquered_cloth(1.2e-3, 0.05, 0.8);
+  Surface<double> s = test::lacquered_cloth(1.2e-3, 0.05, 0.8);
   s.base.metallic = 1;
   const double both = open.of(s, cloth);
   EXPECT_GT(both, 3e-3) << "seen so flat E(N.V) is below E of most lights";
   EXPECT_LT(open.of(s, cloth, albedo::AlbedoScaling::View), 0.3 * both) << "one look-up is all there is";
-  s = lacquered_cloth(0.2, 0.05, 0.8);
+  s = test::lacquered_cloth(0.2, 0.05, 0.8);
   s.base.metallic = 1;
   EXPECT_LT(open.of(s, cloth), 1e-3);
 }
 
 TEST(DrawnLight, EachDirectionThatIsAddedRoundsTheSum) {
   const Open open;
-  Surface<double> white = lacquered_cloth(0.8, 0.5, 0.3);
+  Surface<double> white = test::lacquered_cloth(0.8, 0.5, 0.3);
   white.base = {{1, 1, 1}, 0, 0.5, {0.04, 0.04, 0.04}, 0};
   const auto of = [&](int drawn) { return open.of(white, {}, albedo::AlbedoScaling::Full, drawn); };
   // A white Lambertian shows 1, as 64 directions have it to some hundredths.
@@ -328,7 +152,7 @@ TEST(DrawnLight, OneDirectionBringsItsShareAndTowardALampAllOfIt) {
   // Of a white Lambertian under white light each of n directions brings near 1 / n.
   scene::Environment sky;
   sky.uniform = glm::dvec3(1.0);
-  Surface<double> white = lacquered_cloth(0.8, 0.5, 0.3);
+  Surface<double> white = test::lacquered_cloth(0.8, 0.5, 0.3);
   white.base = {{1, 1, 1}, 0, 0.5, {0.04, 0.04, 0.04}, 0};
   const Lighting lighting{};
   const auto largest = [&](bool has_image, int drawn) {
@@ -356,7 +180,7 @@ TEST(DrawnLight, OneDirectionBringsItsShareAndTowardALampAllOfIt) {
 
 TEST(DrawnLight, OcclusionDimsWhatItIsOffByToo) {
   const Open open;
-  Surface<double> s = lacquered_cloth(0.8, 0.3, 0.4);
+  Surface<double> s = test::lacquered_cloth(0.8, 0.3, 0.4);
   const double whole = open.of(s, {true, true, false});
   s.occlusion = 0.25;
   EXPECT_NEAR(open.of(s, {true, true, false}), 0.25 * whole, 1e-6 * whole);
@@ -364,7 +188,7 @@ TEST(DrawnLight, OcclusionDimsWhatItIsOffByToo) {
 
 TEST(DrawnLight, LobesOfMediumpAreOffByMore) {
   const Open open;
-  const Surface<double> s = lacquered_cloth(0.8, 0.3, 0.4);
+  const Surface<double> s = test::lacquered_cloth(0.8, 0.3, 0.4);
   EXPECT_GT(open.of<number::Bounded<number::Mediump>>(s, {true, true, false}), 30 * open.of(s, {true, true, false}));
 }
 
@@ -387,7 +211,7 @@ TEST(DrawnLight, TheEnvironmentItselfIsLookedUpWithAnError) {
 TEST(DrawnLight, OfAMirrorIsWhatItsLookupRounds) {
   const scene::Environment sky = lamps();
   const DrawnImage image(sky, glm::dmat3(1.0));
-  Surface<double> s = lacquered_cloth(0.8, 0.0, 0.3);
+  Surface<double> s = test::lacquered_cloth(0.8, 0.0, 0.3);
   s.base.metallic = 1;
   s.base.color = {1, 1, 1};
   const Lighting lighting{};
