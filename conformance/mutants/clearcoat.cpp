@@ -41,7 +41,7 @@ std::vector<Mutant> clearcoat_mutants() {
                   std::string("#ifdef LIT\n    LayerView coat_view = surface.view;\n#else\n    ") + coat_of_the_interpolated_normal +
                       "\n#endif"}}},
       {.name = "coat.without_its_normal_map",
-       .why = "clearcoatNormalTexture is not implemented",
+       .why = "clearcoatNormalTexture is not known",
        .first = {{"core", "clearcoat.normals.*"}},
        .alter = of_materials([](scene::Material& material) { material.clearcoat.normal_texture = {}; })},
       {.name = "coat.normal_map_reaches_the_base",
