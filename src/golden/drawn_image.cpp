@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "golden/environment_light.h"
 #include "number/bounded_functions.h"
 
 namespace sheen::golden {
 namespace {
-
-/// Of the brightest texels, which may be all that lights a surface.
-constexpr std::size_t most_brightest = 16;
 
 /// Where under a tent, from its middle, a number in [0, 1) lies.
 double under_tent(double x) {
@@ -62,18 +59,8 @@ DrawnImage::DrawnImage(const scene::Environment& environment, const glm::dmat3& 
   // d omega = 2 pi^2 sin(theta) du dv. Of a black image every texel has its share; there is nothing to miss.
   const double total = row_sums_.back();
   const double per_texel = static_cast<double>(w * h) / (2.0 * brdf::pi * brdf::pi);
-  std::vector<std::size_t> order(w * h);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const std::size_t count = std::min(w * h, most_brightest);
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
-                    [&](std::size_t a, std::size_t b) { return brightness(a % w, a / w) > brightness(b % w, b / w); });
-  const scene::Environment upright;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t row = order[i] / w;
-    const auto x = static_cast<double>(order[i] - row * w);
-    const auto y = static_cast<double>(row);
-    const glm::dvec2 at((x + 0.5) / environment.width, (y + 0.5) / environment.height);
-    const glm::dvec3 d = upright.direction(at) * image_from_view_;
+  for (const glm::dvec3& world : brightest_directions(environment)) {
+    const glm::dvec3 d = view_from_world * world;
     brightest_.push_back({d.x, d.y, d.z});
   }
   for (double& density : densities_) {

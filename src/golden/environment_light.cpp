@@ -53,8 +53,15 @@ std::vector<glm::vec3> part(const scene::Environment& environment, double limit,
   return texels;
 }
 
-// Directions to the brightest texels.
-std::vector<glm::dvec3> brightest(const scene::Environment& environment) {
+// What a part of the light holds in a direction.
+LightPoint held(const ImageTexels& part, const glm::dvec3& d) {
+  const Arrived<double> there = look_up(part, ImagePlace<double>(part, Vec3<double>{d.x, d.y, d.z}));
+  return {d.x, d.y, d.z, there.radiance.r, there.radiance.g, there.radiance.b, there.density};
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> brightest_directions(const scene::Environment& environment) {
   constexpr std::size_t most = 16;
   std::vector<std::size_t> order(environment.texels.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -72,20 +79,12 @@ std::vector<glm::dvec3> brightest(const scene::Environment& environment) {
   return directions;
 }
 
-// What a part of the light holds in a direction.
-LightPoint held(const ImageTexels& part, const glm::dvec3& d) {
-  const Arrived<double> there = look_up(part, ImagePlace<double>(part, Vec3<double>{d.x, d.y, d.z}));
-  return {d.x, d.y, d.z, there.radiance.r, there.radiance.g, there.radiance.b, there.density};
-}
-
-}  // namespace
-
 EnvironmentLight::EnvironmentLight(const scene::Environment& environment)
     : environment_(environment),
       soft_(environment.width, environment.height, part(environment, threshold(environment), false), environment.rotation),
       bright_(environment.width, environment.height, part(environment, threshold(environment), true), environment.rotation),
       slow_(soft_.texels()) {
-  for (const glm::dvec3& direction : brightest(environment)) {
+  for (const glm::dvec3& direction : brightest_directions(environment)) {
     for (const auto& [part, points] : {std::pair(&soft_, &soft_brightest_), std::pair(&bright_, &bright_brightest_)}) {
       if (!part->dark()) {
         points->push_back(held(part->texels(), direction));

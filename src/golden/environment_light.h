@@ -10,6 +10,9 @@
 
 namespace sheen::golden {
 
+/// World directions to an image's brightest texels, 16 at most: they may be all that lights a surface.
+std::vector<glm::dvec3> brightest_directions(const scene::Environment& environment);
+
 /// An image that lights, split into a sum of two: what exceeds a threshold (the sun, lamps), and the rest. A surface turned away from the
 /// sun then spends no direction on it, and no direction drawn elsewhere meets it by a rare chance that would make the mean jump.
 class EnvironmentLight {
@@ -20,7 +23,7 @@ class EnvironmentLight {
   glm::dvec3 radiance(const glm::dvec3& direction) const { return environment_.radiance(direction); }
   const ImageLight& soft() const { return soft_; }
   const ImageLight& bright() const { return bright_; }
-  /// What each part holds toward the brightest texels of the whole, which may be all that lights a surface.
+  /// What each part holds toward the brightest texels of the whole.
   const std::vector<LightPoint>& soft_brightest() const { return soft_brightest_; }
   const std::vector<LightPoint>& bright_brightest() const { return bright_brightest_; }
   /// What of the soft part varies slowly.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "golden/controlled_mean.h"
+#include "golden/sampling_goal.h"
 #include "golden/uniform_light.h"
 
 namespace sheen::golden {
@@ -200,20 +201,6 @@ Color coarse_environment(const Surface<double>& surface, Layers layers, const Im
     sum = sum + replica_sum(task.sum, *lighting.pool, mix(stream), r, 0, coarse_points).radiance;
   }
   return sum * (surface.occlusion / (coarse_replicas * coarse_points)) + mirrors(surface, layers, lighting);
-}
-
-Estimate shade_environment(const Surface<double>& surface, Layers layers, const ImageLighting& lighting, const SamplingGoal& goal,
-                           std::uint64_t stream) {
-  EnvironmentEstimate estimate(surface, layers, lighting, stream);
-  CurveCache curves;
-  while (estimate.refine(surface, curves, goal.samples)) {
-    const Estimate now = estimate.value();
-    if (now.standard_error.r <= goal.error * now.mean.r && now.standard_error.g <= goal.error * now.mean.g &&
-        now.standard_error.b <= goal.error * now.mean.b) {
-      break;
-    }
-  }
-  return estimate.value();
 }
 
 }  // namespace sheen::golden

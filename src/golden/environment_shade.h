@@ -5,7 +5,6 @@
 
 #include "golden/curve_cache.h"
 #include "golden/image_sum.h"
-#include "golden/sampling_goal.h"
 #include "golden/shade.h"
 
 namespace sheen::golden {
@@ -67,9 +66,5 @@ class EnvironmentEstimate {
 /// the same stream.
 brdf::Rgb<double> coarse_environment(const Surface<double>& surface, Layers layers, const ImageLighting& lighting, std::uint64_t stream,
                                      CurveCache& curves);
-
-/// An estimate refined until the relative standard error of each channel meets the goal, or the directions pass it.
-Estimate shade_environment(const Surface<double>& surface, Layers layers, const ImageLighting& lighting, const SamplingGoal& goal,
-                           std::uint64_t stream);
 
 }  // namespace sheen::golden

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "golden/image_sum.h"
+#include "golden/refined_estimate_test.h"
 #include "golden/test_scenes.h"
 #include "golden/uniform_light.h"
 #include "number/cpu.h"
@@ -51,7 +52,7 @@ Lighting lighting_with(const albedo::Interpolant& interpolant) {
 Estimate estimate(const Surface<double>& surface, Layers layers, const Lighting& lighting, const EnvironmentLight& light,
                   const SamplingGoal& goal, std::uint64_t stream = 0) {
   const DirectionPool pool(light, goal.seed);
-  return shade_environment(surface, layers, {lighting, &light, &pool}, goal, stream);
+  return test::refined_estimate(surface, layers, {lighting, &light, &pool}, goal, stream);
 }
 
 // The sum over all directions of a density is 1, and of the share a strategy draws in each region, that region's.
@@ -256,8 +257,8 @@ TEST(EnvironmentShade, IsFiniteEverywhere) {
     Surface<double> surface = cloth_under_lacquer(0.5);
     surface.normal = surface.coat_normal = {n.x, n.y, n.z};
     surface.view = {v.x, v.y, v.z};
-    const Estimate e = shade_environment(surface, {i % 3 != 0, i % 2 != 0}, {lighting_with(interpolant), &light, &pool}, {1.0, 2000, 1},
-                                         static_cast<std::uint64_t>(i));
+    const Estimate e = test::refined_estimate(surface, {i % 3 != 0, i % 2 != 0}, {lighting_with(interpolant), &light, &pool},
+                                              {1.0, 2000, 1}, static_cast<std::uint64_t>(i));
     ASSERT_TRUE(e.mean.g > 0.0 && std::isfinite(e.mean.g) && std::isfinite(e.standard_error.g)) << i;
   }
 }

@@ -12,6 +12,7 @@
 #include "albedo/split_sum.h"
 #include "golden/environment_shade.h"
 #include "golden/long_double_model.h"
+#include "golden/refined_estimate_test.h"
 #include "golden/shade_all.h"
 #include "golden/test_scenes.h"
 #include "golden/uniform_light.h"
@@ -296,7 +297,7 @@ TEST(Physical, UnderAWhiteImageSamplingFindsTheFurnace) {
     for (const double mu : {0.9, 0.2}) {
       for (const double metallic : {0.0, 1.0}) {
         const Surface<double> s = surface(mu, roughness, metallic, {1.0, 1.0, 0.5});
-        const Estimate ours = shade_environment(s, {}, {physical(), &light, &pool}, goal, 0);
+        const Estimate ours = test::refined_estimate(s, {}, {physical(), &light, &pool}, goal, 0);
         EXPECT_NEAR(ours.mean.r, 1.0, 4.0 * ours.standard_error.r + 1e-5) << roughness << ' ' << mu;
         EXPECT_NEAR(ours.mean.b, furnace(s).b, 4.0 * ours.standard_error.b + 1e-5) << roughness << ' ' << mu;
         EXPECT_LT(ours.standard_error.r, 0.002);
