@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that building and running need and this machine lacks. With --lint also those of tools/lint.sh,
-# with --drivers those of tools/drivers.sh.
+# Installs the Debian 12 packages that building and running need and this machine lacks. With --sanitize also those of tools/sanitize.sh,
+# with --lint those of tools/lint.sh, with --drivers those of tools/drivers.sh.
 set -euo pipefail
 
 packages=(
@@ -15,9 +15,10 @@ packages=(
 )
 for argument in "$@"; do
   case $argument in
+    --sanitize) packages+=(clang libclang-rt-dev llvm) ;;    # the sanitizers' runtime; llvm-symbolizer, which names what a suppression is of
     --lint) packages+=(clang-format clang-tidy git python3) ;;
     --drivers) packages+=(mesa-vulkan-drivers libvulkan1) ;;  # lavapipe, below zink
-    *) echo "usage: tools/setup.sh [--lint] [--drivers]" >&2; exit 2 ;;
+    *) echo "usage: tools/setup.sh [--sanitize] [--lint] [--drivers]" >&2; exit 2 ;;
   esac
 done
 

@@ -13,7 +13,7 @@
 namespace sheen::golden {
 namespace {
 
-constexpr int size = 48;
+constexpr int side = 48;
 constexpr double ymag = 1.1;
 
 scene::Scene cloth_over_floor() {
@@ -28,15 +28,15 @@ scene::Scene cloth_over_floor() {
 
 // For an orthographic camera a moved sample is a moved camera.
 image::Image rendered_with_shift(scene::Scene s, double dx, double dy) {
-  const double pixel = 2.0 * ymag / size;
+  const double pixel = 2.0 * ymag / side;
   s.cameras[0].world_from_camera = glm::translate(s.cameras[0].world_from_camera, glm::dvec3(dx * pixel, -dy * pixel, 0.0));
-  return render(s, test::settings_for(size, size));
+  return render(s, test::settings_for(side, side));
 }
 
 TEST(Bound, HoldsWhatAnySampleWithinTheStepShows) {
   scene::Scene s = cloth_over_floor();
   for (const int bits : {4, 8}) {
-    Settings settings = test::settings_for(size, size, true);
+    Settings settings = test::settings_for(side, side, true);
     settings.subpixel_bits = bits;
     const image::Image golden = render(s, settings);
     const double step = displacement(settings);
@@ -46,8 +46,8 @@ TEST(Bound, HoldsWhatAnySampleWithinTheStepShows) {
       const image::Image moved = rendered_with_shift(s, shift.x * step, shift.y * step);
       const bool corner = std::abs(shift.x) == 1.0 && std::abs(shift.y) == 1.0;
       excluded = covered = 0;
-      for (int y = 0; y < size; ++y) {
-        for (int x = 0; x < size; ++x) {
+      for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
           const bool out = golden.at(x, y, golden.channel("excluded")) > 0.0f;
           excluded += out ? 1 : 0;
           covered += golden.at(x, y, 3) > 0.0f ? 1 : 0;
@@ -63,17 +63,17 @@ TEST(Bound, HoldsWhatAnySampleWithinTheStepShows) {
       }
     }
     EXPECT_GT(excluded, 0) << "silhouettes of the sphere, the floor and the pane cross some pixel centres";
-    EXPECT_LT(excluded, 0.6 * 400.0 * 4.0 * step * size) << "only pixels whose centre is within the step of an edge: bits " << bits;
-    EXPECT_GT(covered, size * size / 2);
+    EXPECT_LT(excluded, 0.6 * 400.0 * 4.0 * step * side) << "only pixels whose centre is within the step of an edge: bits " << bits;
+    EXPECT_GT(covered, side * side / 2);
   }
 }
 
 TEST(Bound, InteriorOfASmoothSurfaceIsNeverExcludedAndTight) {
   scene::Scene s = test::scene_with(test::sphere(64, 32), test::lambertian({0.5, 0.5, 0.5, 1.0}), test::orthographic_at(5.0, 0.5),
                                     {test::directional({0.2, 0.1, 1.0})});
-  const image::Image golden = render(s, test::settings_for(size, size, true));
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
+  const image::Image golden = render(s, test::settings_for(side, side, true));
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
       EXPECT_EQ(golden.at(x, y, 7), 0.0f) << x << ' ' << y;
       const double value = golden.at(x, y, 0);
       EXPECT_GE(golden.at(x, y, 4), 4.0 * 0x1p-23 * value) << "a few roundings";
@@ -197,19 +197,19 @@ TEST(Bound, HoldsTheCoverageOfABlendedTexture) {
   s.materials[0].base_color_texture =
       test::add_texture(s, test::picture(64, 64, [](int x, int y) { return glm::ivec4(255, 255, 255, (x * 37 + y * 91) % 256); }));
   s.textures[0].sampler.mip = scene::MipFilter::None;
-  Settings settings = test::settings_for(size, size, true);
+  Settings settings = test::settings_for(side, side, true);
   settings.subpixel_bits = 4;
   const image::Image golden = render(s, settings);
   const int bound = golden.channel("bound.A");
   ASSERT_GE(bound, 0);
-  const double step = 2.0 / size * displacement(settings);
+  const double step = 2.0 / side * displacement(settings);
   for (const glm::dvec2 shift : {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1)}) {
     scene::Scene moved = s;
     moved.cameras[0].world_from_camera = glm::translate(s.cameras[0].world_from_camera, glm::dvec3(shift.x, -shift.y, 0.0) * step);
-    const image::Image other = render(moved, test::settings_for(size, size));
+    const image::Image other = render(moved, test::settings_for(side, side));
     double largest = 0.0;
-    for (int y = 4; y < size - 4; ++y) {
-      for (int x = 4; x < size - 4; ++x) {
+    for (int y = 4; y < side - 4; ++y) {
+      for (int x = 4; x < side - 4; ++x) {
         const double change = std::abs(other.at(x, y, 3) - golden.at(x, y, 3));
         EXPECT_LE(change, golden.at(x, y, bound)) << x << ' ' << y;
         largest = std::max(largest, change);
@@ -357,9 +357,9 @@ TEST(Bound, OfAFaintLightHoldsWhatMayBeFlushed) {
   for (const double lux : {0x1p-110, 0x1p-125, 0x1p-140}) {
     const scene::Scene s = test::scene_with(test::sphere(40, 20), test::lambertian({0.5, 0.5, 0.5, 1.0}), test::orthographic_at(5.0, ymag),
                                             {test::directional({0.0, 0.0, 1.0}, glm::dvec3(1.0), lux)});
-    const image::Image golden = render(s, test::settings_for(size, size, true));
+    const image::Image golden = render(s, test::settings_for(side, side, true));
     for (int c = 0; c < 3; ++c) {
-      EXPECT_GE(golden.at(size / 2, size / 2, 4 + c), 0x1p-126F) << "of " << lux << " lux";
+      EXPECT_GE(golden.at(side / 2, side / 2, 4 + c), 0x1p-126F) << "of " << lux << " lux";
     }
   }
 }

@@ -21,8 +21,12 @@ bool not_zero(float x) {
   return std::abs(x) > std::numeric_limits<float>::min();
 }
 
+bool not_zero(const glm::vec3& v) {
+  return not_zero(v.x) || not_zero(v.y) || not_zero(v.z);
+}
+
 glm::vec3 normalized(const glm::vec3& v) {
-  return not_zero(v.x) || not_zero(v.y) || not_zero(v.z) ? v * (1.0f / glm::length(v)) : v;
+  return not_zero(v) ? v * (1.0f / glm::length(v)) : v;
 }
 
 glm::vec3 projected(const glm::vec3& v, const glm::vec3& normal) {
@@ -248,7 +252,7 @@ glm::vec3 mean(const std::vector<Member>& members, const Joins& joined) {
   }
   const glm::vec3 tangent = normalized(sum);
   const bool finite = std::isfinite(tangent.x) && std::isfinite(tangent.y) && std::isfinite(tangent.z);
-  return finite ? tangent : glm::vec3(0.0f);
+  return finite && not_zero(tangent) ? tangent : glm::vec3(0.0f);
 }
 
 void write_group(const std::vector<TangentTriangle>& triangles, const std::vector<Member>& members, std::vector<glm::vec4>& tangents) {
