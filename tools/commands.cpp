@@ -113,10 +113,9 @@ void resolve_model(const CLI::App& app, SceneOptions& options) {
 
 /// How far an image that lights is sampled.
 void add_sampling(CLI::App& app, GoldenOptions& options) {
-  app.add_option(
-         "--error", options.error,
-         "Draw directions toward an image until 99 % of the covered pixels have a relative standard error, in every channel, below this "
-         "(0.01)")
+  app.add_option("--error", options.error,
+                 "Draw directions toward an image until 99 % of the covered pixels have, in every channel, a relative standard error "
+                 "below this, and no direction that may bring more (0.01)")
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("REL");
   app.add_option(

@@ -6,6 +6,9 @@ namespace sheen::brdf {
 
 /// Up to this alpha, a roughness of 3e-5, a surface counts as a mirror: its highlight is thinner than any pixel.
 inline constexpr double mirror_alpha = 1e-9;
+constexpr bool is_mirror(double alpha) {
+  return !(alpha > mirror_alpha);
+}
 
 /// GGX (Trowbridge-Reitz) distribution in 1/sr, glTF 2.0 Appendix B.3.2, in the form k^2/pi with k = alpha / (|NxH|^2 + alpha^2 (N.H)^2):
 /// the printed (N.H)^2 (alpha^2 - 1) + 1 cancels near N.H = 1. A mirror gives punctual lights no highlight: 0. Of one angle's sine and

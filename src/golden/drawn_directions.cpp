@@ -47,10 +47,10 @@ WayCounts drawn_counts(const Surface<double>& surface, Layers layers, bool has_i
   const auto set = [&weights](Way way, double weight) { weights.at(index_of(way)) = std::max(weight, smallest_weight); };
   weights[index_of(Way::Sphere)] = weight_of_sphere;
   set(Way::Cosine, (1 - k) * brdf::max3(surface.base.color) * (1 - surface.base.metallic));
-  if (surface.base.alpha >= brdf::mirror_alpha) {
+  if (!brdf::is_mirror(surface.base.alpha)) {
     set(Way::Ggx, (1 - k) * brdf::max3(mirrored_share(surface.base, base.n_dot_v)));
   }
-  if (layers.clearcoat && surface.coat_alpha >= brdf::mirror_alpha && k > 0) {
+  if (layers.clearcoat && !brdf::is_mirror(surface.coat_alpha) && k > 0) {
     set(Way::Coat, k);
   }
   if (layers.sheen && surface.sheen_roughness > smallest_drawn_sheen_roughness) {

@@ -98,7 +98,7 @@ Color mirrors(const Surface<Bound>& surface, Layers layers, const Lighting& ligh
   const auto mirrored = [&](const LobeView<Bound>& lobe) { return image.radiance(lobe.n * (dot(lobe.n, lobe.v) * Bound(2)) - lobe.v); };
   const Bound k = layers.clearcoat ? CoatLayer<Bound, Lobe>(surface, lighting).weight() : Bound(0.0);
   Color sum{Bound(0.0), Bound(0.0), Bound(0.0)};
-  if (surface.base.alpha.center() < brdf::mirror_alpha) {
+  if (brdf::is_mirror(surface.base.alpha.center())) {
     const LobeView<Bound> lobe(surface.normal, surface.view);
     const Bound w = brdf::schlick_weight(lobe.n_dot_v);
     Bound scale = one;
@@ -116,7 +116,7 @@ Color mirrors(const Surface<Bound>& surface, Layers layers, const Lighting& ligh
                   reflected(base.dielectric_f0.b, base.color.b)};
     sum = f * mirrored(lobe) * (scale * (one - k));
   }
-  if (layers.clearcoat && surface.coat_alpha.center() < brdf::mirror_alpha) {
+  if (layers.clearcoat && brdf::is_mirror(surface.coat_alpha.center())) {
     sum = sum + mirrored(LobeView<Bound>(surface.coat_normal, surface.view)) * k;
   }
   return sum;

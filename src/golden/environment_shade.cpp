@@ -25,7 +25,7 @@ Color mirrors(const Surface<double>& surface, Layers layers, const ImageLighting
   const LobeView<double> coat(layers.clearcoat ? surface.coat_normal : surface.normal, surface.view);
   const double k = layers.clearcoat ? brdf::clearcoat_weight(surface.clearcoat, coat.n_dot_v) * lighting.factors.coat_weight : 0.0;
   Color sum{0, 0, 0};
-  if (!(surface.base.alpha > 0.0)) {
+  if (brdf::is_mirror(surface.base.alpha)) {
     double s = 1.0;
     if (layers.sheen) {
       const SheenLayer<double> sheen(surface, lobe, lighting);
@@ -34,7 +34,7 @@ Color mirrors(const Surface<double>& surface, Layers layers, const ImageLighting
     const BaseIntegrals delta{0.0, 0.0, s, s * brdf::schlick_weight(lobe.n_dot_v)};
     sum = sum + base_light(surface.base, delta) * mirrored_light(lobe, *all.light) * ((1 - k) * lighting.factors.base);
   }
-  if (layers.clearcoat && !(surface.coat_alpha > 0.0)) {
+  if (layers.clearcoat && brdf::is_mirror(surface.coat_alpha)) {
     sum = sum + mirrored_light(coat, *all.light) * (k * lighting.factors.coat_lobe);
   }
   return sum * surface.occlusion;

@@ -263,6 +263,25 @@ TEST(EnvironmentShade, IsFiniteEverywhere) {
   }
 }
 
+// No direction is drawn by the lobe of a mirror, and what it mirrors is no matter of chance.
+TEST(EnvironmentShade, TheSmoothestAreMirrors) {
+  const scene::Environment environment = sky_with_sun();
+  const EnvironmentLight light(environment);
+  const albedo::Interpolant interpolant(albedo::Visibility::Charlie);
+  Surface<double> surface = cloth_under_lacquer(0.5);
+  surface.base = {{0.9, 0.8, 0.7}, 1.0, 0.0, {0.04, 0.04, 0.04}, 1.0};
+  const auto with = [&](double alpha) {
+    surface.base.alpha = surface.coat_alpha = alpha;
+    return estimate(surface, {false, true}, lighting_with(interpolant), light, {0.01, 1u << 12, 3}).mean;
+  };
+  const Color mirror = with(0);
+  EXPECT_GT(mirror.r, 0.1);
+  for (const double alpha : {1e-76, 1e-14, brdf::mirror_alpha}) {
+    EXPECT_EQ(with(alpha).r, mirror.r) << alpha;
+    EXPECT_EQ(with(alpha).b, mirror.b) << alpha;
+  }
+}
+
 TEST(EnvironmentShade, ASeedGivesOneResult) {
   const scene::Environment environment = sky_with_sun();
   const EnvironmentLight light(environment);

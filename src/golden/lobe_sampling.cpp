@@ -26,10 +26,10 @@ LobeSampling lobe_sampling(const Surface<double>& surface, Layers layers, bool s
   draw(Strategy::Soft, soft ? 8 : 0);
   draw(Strategy::Bright, bright);
   draw(Strategy::Cosine, 1);
-  if (s.alpha > 0.0) {
+  if (!brdf::is_mirror(s.alpha)) {
     draw(Strategy::Ggx, surface.base.metallic < 0.25 ? 1 : surface.base.metallic < 0.75 ? 2 : 4);
   }
-  if (layers.clearcoat && s.coat_alpha > 0.0 && surface.clearcoat > 0.0) {
+  if (layers.clearcoat && !brdf::is_mirror(s.coat_alpha) && surface.clearcoat > 0.0) {
     draw(Strategy::CoatGgx, 1);
   }
   if (layers.sheen && surface.sheen_roughness > 0.0) {

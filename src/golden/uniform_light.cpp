@@ -45,17 +45,18 @@ const Nodes& nodes_for(albedo::Effort effort) {
 }
 
 struct Cosine {
-  double lambda, from_mu;  // the latter without cancellation
+  double lambda, from_mu;  // the latter without cancellation: it may be less than what tells lambda and mu apart
 };
 
 // What the integrands are at one cosine, azimuth integrated, without s.
 BaseIntegrals around(const std::vector<AzimuthNode>& azimuth, double alpha, double mu, const Cosine& l) {
-  const double sine_product = std::sqrt((1 - mu) * (1 + mu) * (1 - l.lambda) * (1 + l.lambda));
+  const double squared_sine = (1 - mu) * (1 + mu);
+  const double sine_product = std::sqrt(squared_sine * std::max(1 - mu - l.from_mu, 0.0) * (1 + l.lambda));
   const double a = (mu + l.lambda) * (mu + l.lambda) / (1 + mu * l.lambda + sine_product);
   const double b = 2 * sine_product;
-  const double s = std::min(l.from_mu * l.from_mu / (2 * (1 - mu * l.lambda + sine_product)), 1.0);
+  const double s = std::min(l.from_mu * l.from_mu / (2 * (squared_sine - mu * l.from_mu + sine_product)), 1.0);
   const double d = a * (s + alpha * alpha * (1 - s));
-  const double lobe = alpha > 0 ? alpha * alpha / brdf::pi * brdf::smith_visibility(alpha, l.lambda, mu) * l.lambda : 0.0;
+  const double lobe = brdf::is_mirror(alpha) ? 0.0 : alpha * alpha / brdf::pi * brdf::smith_visibility(alpha, l.lambda, mu) * l.lambda;
   BaseIntegrals out;
   out.diffuse = 2 * l.lambda;
   const double product = d * (d + b);
@@ -85,15 +86,19 @@ BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<d
   const Nodes& nodes = nodes_for(effort);
   const albedo::Rule& rule = nodes.cosine;
   const double mu = n_dot_v;
-  std::vector<double> breaks{0.0, mu, 1.0};
-  breaks.insert(breaks.end(), kinks.begin(), kinks.end());
+  // As differences from mu.
+  std::vector<double> breaks{-mu, 0.0, 1 - mu};
+  for (const double kink : kinks) {
+    breaks.push_back(kink - mu);
+  }
   // A change of the half vector by alpha moves N.L by about this.
-  const double width = 2 * alpha * (std::sqrt((1 - mu) * (1 + mu)) + alpha);
+  const double width = brdf::is_mirror(alpha) ? 0.0 : 2 * alpha * (std::sqrt((1 - mu) * (1 + mu)) + alpha);
   // Beyond, the lobe falls like a power: at most two decades to a panel.
-  for (const double widths : {-3e7, -3e5, -3e3, -30.0, -3.0, 3.0, 30.0, 3e3, 3e5, 3e7}) {
-    const double at = mu + widths * width;
-    if (at > 0 && at < 1) {
-      breaks.push_back(at);
+  for (double widths = 3; width > 0 && widths * width < 1; widths *= widths < 30 ? 10 : 100) {
+    for (const double at : {-widths * width, widths * width}) {
+      if (at > -mu && at < 1 - mu) {
+        breaks.push_back(at);
+      }
     }
   }
   std::sort(breaks.begin(), breaks.end());
@@ -106,10 +111,8 @@ BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<d
       continue;
     }
     for (std::size_t i = 0; i < rule.left.size(); ++i) {
-      const bool near_a = rule.left[i] < 0.5;
-      const double offset = near_a ? length * rule.left[i] : -length * rule.right[i];
-      const double end = near_a ? a : b;
-      const Cosine l{end + offset, end == mu ? offset : end + offset - mu};
+      const double from_mu = rule.left[i] < 0.5 ? a + length * rule.left[i] : b - length * rule.right[i];
+      const Cosine l{mu + from_mu, from_mu};
       if (!(l.lambda > 0)) {
         continue;
       }
@@ -121,7 +124,7 @@ BaseIntegrals base_integrals(double alpha, double n_dot_v, const std::function<d
       sum.specular_w += weight * f.specular_w;
     }
   }
-  if (!(alpha > 0)) {
+  if (brdf::is_mirror(alpha)) {
     sum.specular = scale(mu);
     sum.specular_w = sum.specular * brdf::schlick_weight(mu);
   }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "albedo/directional_albedo.h"
+#include "albedo/ggx_albedo.h"
 #include "brdf/base.h"
 
 namespace sheen::golden {
@@ -78,6 +79,31 @@ TEST(BaseIntegrals, KnowClosedForms) {
   for (const double mu : {1e-4, 1e-3, 0.01, 0.1, 0.5, 1.0}) {
     for (const double alpha : {1e-6, 1e-3, 0.03, 0.3, 1.0}) {
       EXPECT_LE(base_integrals(alpha, mu, one).specular, 1.0 + 1e-7) << alpha << ' ' << mu;
+    }
+  }
+}
+
+// Up to mirror_alpha nothing of the lobe is left to integrate, and all of it at the mirrored view.
+TEST(BaseIntegrals, OfTheSmoothestAreAMirrors) {
+  const auto s = [](double n_dot_l) { return 0.3 + 0.5 * n_dot_l; };
+  for (const double mu : {1.0, 0.6, 0.02}) {
+    const BaseIntegrals mirror = base_integrals(0, mu, s);
+    EXPECT_EQ(mirror.specular, s(mu));
+    for (const double alpha : {1e-76, 1e-40, 1e-14, brdf::mirror_alpha}) {
+      const BaseIntegrals ours = base_integrals(alpha, mu, s);
+      EXPECT_EQ(ours.specular, mirror.specular) << alpha;
+      EXPECT_EQ(ours.specular_w, mirror.specular_w) << alpha;
+      EXPECT_NEAR(ours.diffuse_w, mirror.diffuse_w, 1e-9) << alpha;
+    }
+  }
+}
+
+// Along the normal a lobe is as narrow in N.L as alpha^2: less than tells numbers near 1 apart.
+TEST(BaseIntegrals, MeetTheNarrowestLobesAtEveryAngle) {
+  const auto one = [](double) { return 1.0; };
+  for (const double alpha : {1.01 * brdf::mirror_alpha, 3e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+    for (const double mu : {1.0, 1 - 1e-15, 1 - 1e-12, 1 - 1e-9, 1 - 1e-6, 0.999, 0.6, 0.1, 0.01, 1e-4}) {
+      EXPECT_NEAR(base_integrals(alpha, mu, one).specular, 1 - albedo::ggx_loss(mu, alpha), 1e-9) << alpha << ' ' << 1 - mu;
     }
   }
 }
