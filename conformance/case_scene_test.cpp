@@ -104,6 +104,18 @@ TEST(Shapes, BrokenNormalsAreThoseOfASquareAtEveryLength) {
   }
 }
 
+TEST(Shapes, MotleyHasNothingBetweenItsColors) {
+  for (std::size_t c = 0; c < 4; ++c) {
+    std::map<float, int> counts;
+    for (const std::array<float, 4>& color : make_shape("motley").colors) {
+      ++counts[color.at(c)];
+    }
+    ASSERT_EQ(counts.size(), 2U) << c;
+    EXPECT_GT(counts[0.0F], 13 * 13 / 3) << c;
+    EXPECT_GT(counts[1.0F], 13 * 13 / 3) << c;
+  }
+}
+
 TEST(Pictures, RepeatWithoutASeamAndTellChannelsApart) {
   for (const char* name : {"channels", "weave", "odd"}) {
     const ProceduralPicture picture = make_picture(name);

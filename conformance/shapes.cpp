@@ -142,11 +142,23 @@ Shape broken_normals() {
   return shape;
 }
 
+/// A square whose vertices have 0 or 1 in each channel, by the bits of a hash; in twelfths, which floats round.
+Shape motley() {
+  Shape shape = tessellate(12, 12, {1.0, 1.0}, square_point);
+  for (std::uint32_t i = 0; i < shape.colors.size(); ++i) {
+    const std::uint32_t hash = i * 2654435761U;  // of Knuth, by the golden ratio
+    for (std::uint32_t c = 0; c < 4; ++c) {
+      shape.colors[i].at(c) = static_cast<float>(hash >> (14 + 4 * c) & 1U);
+    }
+  }
+  return shape;
+}
+
 struct NamedShape {
   const char* name;
   Shape (*make)();
 };
-constexpr std::array<NamedShape, 6> all_shapes = {{
+constexpr std::array<NamedShape, 7> all_shapes = {{
     {"sphere",
      [] {
        return tessellate(96, 48, {2.0, 1.0}, sphere_point);
@@ -165,6 +177,7 @@ constexpr std::array<NamedShape, 6> all_shapes = {{
      }},
     {"slivers", slivers},
     {"broken_normals", broken_normals},
+    {"motley", motley},
 }};
 
 }  // namespace

@@ -27,7 +27,8 @@ vec4 material_base_color() {
     value *= texture_sample(u_base_color_texture, BASE_COLOR_TEXTURE_UV, BASE_COLOR_TEXTURE_SAMPLER);
 #endif
 #ifdef VERTEX_COLOR
-    value *= v_color;
+    // A sample may lie beyond its triangle: snapped to the driver's grid, or by rounding.
+    value *= clamp(v_color, 0.0, 1.0);
 #endif
     return value;
 }

@@ -1,5 +1,6 @@
 #include "scene/gltf_accessors.h"
 
+#include <cmath>
 #include <limits>
 
 #include "scene/gltf_fixture_test.h"
@@ -78,6 +79,10 @@ TEST(GltfAccessors, ColorsAreReadInEveryFormAndRgbGetsAlphaOne) {
   EXPECT_EQ(load(asset).primitives[0].colors[0], glm::vec4(0, 1, 0, 1));
   asset.attributes()["COLOR_0"] = asset.add_accessor<std::uint8_t>({255, 0, 51, 0, 0, 0, 0, 0, 0}, 5121, "VEC3", 3, false);
   EXPECT_TRUE(names(error_of(asset), "meshes[0] 'patch'", "COLOR_0"));
+  for (const float outside : {-1e-45F, std::nextafter(1.0F, 2.0F)}) {
+    asset.attributes()["COLOR_0"] = asset.add_accessor<float>({1, 0, 0, 0, 1, outside, 0, 0, 1}, 5126, "VEC3", 3);
+    EXPECT_TRUE(names(error_of(asset), "meshes[0] 'patch'", "vertex 1")) << outside;
+  }
 }
 
 TEST(GltfAccessors, InterleavedAttributesAreTakenApart) {

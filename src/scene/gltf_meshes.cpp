@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include "scene/attributes.h"
 
 namespace sheen::scene {
@@ -104,12 +106,18 @@ std::vector<glm::vec4> read_colors(const Context& context) {
   if (index < 0) {
     return {};
   }
-  if (context.accessors.type(index) == "VEC4") {
-    return read_attribute<glm::vec4>(context, "COLOR_0", "VEC4", {real, unorm8, unorm16});
-  }
   std::vector<glm::vec4> colors;
-  for (const glm::vec3& c : read_attribute<glm::vec3>(context, "COLOR_0", "VEC3", {real, unorm8, unorm16})) {
-    colors.emplace_back(c, 1.0f);
+  if (context.accessors.type(index) == "VEC4") {
+    colors = read_attribute<glm::vec4>(context, "COLOR_0", "VEC4", {real, unorm8, unorm16});
+  } else {
+    for (const glm::vec3& c : read_attribute<glm::vec3>(context, "COLOR_0", "VEC3", {real, unorm8, unorm16})) {
+      colors.emplace_back(c, 1.0f);
+    }
+  }
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (glm::clamp(colors[i], 0.0f, 1.0f) != colors[i]) {
+      context.attributes.fail("COLOR_0", "of vertex " + std::to_string(i) + " lies outside [0, 1] (section 3.7.2.1)");
+    }
   }
   return colors;
 }
