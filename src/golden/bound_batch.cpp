@@ -108,12 +108,16 @@ number::FloatMask is_wide(const Surface<Forms>& surface, Layers layers) {
 }
 
 /// Whether a light adds more uncertainty than there is light with it, in some channel; or a lane is lost by it. Not where it is as good as
-/// nothing of the light that arrives: what a division by highp's rules may make of 0.
+/// nothing of the light that arrives: what a division by highp's rules may make of 0. Nor where none arrives (beyond its range, outside its
+/// cone) but for numbers too small for a float, which an intensity magnifies.
 number::FloatMask is_open(const brdf::Rgb<Forms>& before, const brdf::Rgb<Forms>& after, const brdf::Rgb<Forms>& irradiance) {
   using number::FloatBatch;
   constexpr float nothing = 0x1p-64F;
   const auto opens = [](const Forms& x, const Forms& y, const Forms& e) {
-    const FloatBatch enough = xsimd::max(xsimd::abs(y.center()), FloatBatch(nothing) * xsimd::abs(e.center()));
+    const FloatBatch none(0.0F);
+    const number::FloatMask is_dark = (e.center() == none) & (e.spread() <= FloatBatch(nothing));
+    const FloatBatch of_light = xsimd::select(is_dark, e.spread(), FloatBatch(nothing) * xsimd::abs(e.center()));
+    const FloatBatch enough = xsimd::max(xsimd::abs(y.center()), of_light);
     return ~x.is_lost() & (y.is_lost() | ~(y.spread() - x.spread() <= enough));
   };
   return opens(before.r, after.r, irradiance.r) | opens(before.g, after.g, irradiance.g) | opens(before.b, after.b, irradiance.b);
