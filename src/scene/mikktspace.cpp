@@ -21,12 +21,13 @@ bool not_zero(float x) {
   return std::abs(x) > std::numeric_limits<float>::min();
 }
 
-bool not_zero(const glm::vec3& v) {
-  return not_zero(v.x) || not_zero(v.y) || not_zero(v.z);
+glm::vec3 normalized(const glm::vec3& v) {
+  return not_zero(v.x) || not_zero(v.y) || not_zero(v.z) ? v * (1.0f / glm::length(v)) : v;
 }
 
-glm::vec3 normalized(const glm::vec3& v) {
-  return not_zero(v) ? v * (1.0f / glm::length(v)) : v;
+// False, too, of what normalized() makes of a vector whose squared length overflows or loses its digits.
+bool is_unit(const glm::vec3& v) {
+  return std::abs(glm::length(v) - 1.0f) < 1e-5f;
 }
 
 glm::vec3 projected(const glm::vec3& v, const glm::vec3& normal) {
@@ -170,7 +171,7 @@ struct Member {
   bool any = true;
   glm::vec3 along_u{0.0f};  // as the triangle's, projected into the plane of the vertex's normal
   glm::vec3 along_v{0.0f};
-  glm::vec3 contribution{0.0f};  // along_u times the triangle's angle at the vertex; zero for those that join any group
+  glm::vec3 contribution{0.0f};  // along_u times the triangle's angle at the vertex; zero for those that join any group or have none
 };
 
 // The group that starts at a corner, in the triangles' order.
@@ -218,7 +219,7 @@ void set_contributions(const Mesh& mesh, const std::vector<TangentTriangle>& tri
     const glm::vec3 to_previous = projected(p[previous(member.corner)] - p[member.corner], normal);
     const glm::vec3 to_next = projected(p[next(member.corner)] - p[member.corner], normal);
     const double cosine = std::clamp(static_cast<double>(glm::dot(to_previous, to_next)), -1.0, 1.0);
-    member.contribution = static_cast<float>(std::acos(cosine)) * member.along_u;
+    member.contribution = is_unit(member.along_u) ? static_cast<float>(std::acos(cosine)) * member.along_u : glm::vec3(0.0f);
   }
 }
 
@@ -251,8 +252,7 @@ glm::vec3 mean(const std::vector<Member>& members, const Joins& joined) {
     }
   }
   const glm::vec3 tangent = normalized(sum);
-  const bool finite = std::isfinite(tangent.x) && std::isfinite(tangent.y) && std::isfinite(tangent.z);
-  return finite && not_zero(tangent) ? tangent : glm::vec3(0.0f);
+  return is_unit(tangent) ? tangent : glm::vec3(0.0f);
 }
 
 void write_group(const std::vector<TangentTriangle>& triangles, const std::vector<Member>& members, std::vector<glm::vec4>& tangents) {

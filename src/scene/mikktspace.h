@@ -27,7 +27,8 @@ namespace sheen::scene {
 /// @param positions, normals, uvs  one each a corner, three corners a triangle, of equal length; normals are unit
 /// @return one a corner: xyz unit and perpendicular to the normal, w = +1 or -1 with bitangent = cross(normal, xyz) * w. xyz is zero where
 ///   the method defines no direction: no triangle of the vertex has area, dp/du is parallel to the normal, or a float overflows or
-///   underflows (the reference then gives (1, 0, 0), zero, NaN or a length that is none).
+///   underflows (the reference then gives (1, 0, 0), zero, NaN or any length). Where dp/du is parallel to the normal but for its rounding,
+///   that rounding is the direction, as in the reference.
 /// Time is linear but for sorting, and quadratic in the triangles of one vertex where some are exactly opposite. Throws
 /// std::invalid_argument when the lengths differ or are no multiple of 3.
 std::vector<glm::vec4> mikktspace(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals, std::span<const glm::vec2> uvs);
