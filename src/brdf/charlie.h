@@ -57,6 +57,12 @@ struct LambdaCurve {
   }
 };
 
+/// Lambda(N.V). Apart, for number types that find it in another way near N.V = 1, where the curve has no slope.
+template <class Real>
+Real lambda_of_view(const LambdaCurve<Real>& curve, const Real& n_dot_v) {
+  return curve.lambda(n_dot_v);
+}
+
 /// l's coefficients as KHR_materials_sheen prints them, each mix(at alpha_g 1, at alpha_g 0) of a mixture by (1 - alpha_g)^2. Table 1 of
 /// Conty Estevez and Kulla 2017.
 template <class Real, class Mix>

@@ -24,7 +24,7 @@ class SheenLobe {
     if (visibility_ != Visibility::Ashikhmin) {
       const Real alpha_g = sheen_roughness * sheen_roughness;
       curve_ = visibility_ == Visibility::Charlie ? charlie_lambda_curve(alpha_g) : refined_lambda_curve(alpha_g);
-      lambda_v_ = curve_.lambda(n_dot_v);
+      lambda_v_ = lambda_of_view(curve_, n_dot_v);
     }
   }
 

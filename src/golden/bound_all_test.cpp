@@ -287,6 +287,45 @@ TEST(BoundAll, BatchesHoldSurfacesOfVagueRoughnessAndColour) {
   expect_held(c, random);
 }
 
+// Along the normal, where Lambda(N.V) is found by ranges: of smooth cloth its form is lost.
+TEST(BoundAll, BatchesHoldClothSeenAlongItsNormal) {
+  if (!number::has_batch()) {
+    return;
+  }
+  std::mt19937 random(17);
+  Comparison c;
+  for (std::size_t i = 0; i < c.surfaces.size(); ++i) {
+    Surface<Bound>& s = c.surfaces[i];
+    const auto about = [](const Bound& x) { return Bound::within(x.center(), 5e-6); };
+    s.view = {about(s.normal.x), about(s.normal.y), about(s.normal.z)};
+    const std::array<double, 5> roughnesses{1e-38, 1e-4, 0.01, 0.05, 0.5};
+    s.sheen_roughness = Bound(roughnesses.at(i % roughnesses.size()));
+  }
+  for (const auto visibility : {albedo::Visibility::Charlie, albedo::Visibility::Refined}) {
+    const albedo::Interpolant e(visibility);
+    Lighting lighting;
+    lighting.lights = c.lights.data();
+    lighting.light_count = c.lights.size();
+    lighting.sheen = {visibility, albedo::AlbedoScaling::Full};
+    lighting.albedo.interpolant = &e;
+    std::vector<std::uint32_t> order(c.surfaces.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::vector<brdf::Rgb<Bound>> one(order.size());
+    std::vector<brdf::Rgb<Bound>> many(order.size());
+    const BoundJob job{c.surfaces.data(), order.data(), order.size(), {true, true}, Precision::Highp};
+    bound_all_scalar(job, lighting, one.data());
+    bound_all_batch(job, lighting, many.data());
+    for (std::size_t i = 0; i < many.size(); ++i) {
+      ASSERT_EQ(many[i].g.is_bounded(), one[i].g.is_bounded()) << "surface " << i;
+      EXPECT_LE(many[i].g.deviation(), 2.0 * one[i].g.deviation()) << "surface " << i;
+      for (int k = 0; k < 30 && many[i].g.is_bounded(); ++k) {
+        const double there = shade(test::held(c.surfaces[i], random), Layers{true, true}, lighting, NoListener{}).radiance.g;
+        EXPECT_LE(std::abs(there - many[i].g.center()), many[i].g.deviation()) << "surface " << i;
+      }
+    }
+  }
+}
+
 TEST(BendAll, BatchesAgreeWithOneAtATime) {
   if (!number::has_batch()) {
     return;

@@ -22,6 +22,26 @@ struct Exponents<number::BoundedBatch<number::Mediump>> {
   static Narrow narrowed(const Type& x) { return number::converted_to(x, static_cast<const Narrow*>(nullptr)); }
 };
 
+/// Where the view may be along the normal, a form, the same to either side of its centre, reaches beyond where Lambda's curve has a value,
+/// and takes it for anything. There ranges serve, which end at 1.
+template <>
+inline number::AffineBatch lambda_of_view(const LambdaCurve<number::AffineBatch>& curve, const number::AffineBatch& n_dot_v) {
+  using number::FloatBatch;
+  using Ranges = number::RangeBatch;
+  number::AffineBatch lambda = curve.lambda(n_dot_v);
+  const number::FloatMask head_on = FloatBatch(1.0F) - n_dot_v.center() <= n_dot_v.spread();
+  if (xsimd::any(head_on)) {
+    const auto range = [](const number::AffineBatch& x) {
+      const FloatBatch reach = x.spread() + (xsimd::abs(x.center()) + x.spread()) * FloatBatch(0x1p-22F);
+      return Ranges(x.center() - reach, x.center() + reach);
+    };
+    const LambdaCurve<Ranges> ranges(range(curve.a), range(curve.b), range(curve.c), range(curve.d), range(curve.e));
+    const Ranges found = ranges.lambda(min(range(n_dot_v), Ranges(1.0)));
+    lambda.take(head_on, number::AffineBatch(found.bounds(0), found.bounds(1)));
+  }
+  return lambda;
+}
+
 }  // namespace sheen::brdf
 
 namespace sheen::golden {
