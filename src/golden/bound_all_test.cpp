@@ -59,6 +59,15 @@ struct Comparison {
     lights = test::few_lights();
   }
 
+  Lighting under_lights(albedo::Visibility visibility, const albedo::Interpolant& e) const {
+    Lighting lighting;
+    lighting.lights = lights.data();
+    lighting.light_count = lights.size();
+    lighting.sheen = {visibility, albedo::AlbedoScaling::Full};
+    lighting.albedo.interpolant = &e;
+    return lighting;
+  }
+
   void compare(const Lighting& lighting, Precision lobes, Layers layers = {true, true}) {
     std::vector<std::uint32_t> order(surfaces.size());
     std::iota(order.rbegin(), order.rend(), 0u);
@@ -87,11 +96,7 @@ TEST(BoundAll, BatchesAgreeWithOneAtATime) {
   Comparison c;
   for (const auto visibility : {albedo::Visibility::Charlie, albedo::Visibility::Ashikhmin, albedo::Visibility::Refined}) {
     const albedo::Interpolant e(visibility);
-    Lighting lighting;
-    lighting.lights = c.lights.data();
-    lighting.light_count = c.lights.size();
-    lighting.sheen = {visibility, albedo::AlbedoScaling::Full};
-    lighting.albedo.interpolant = &e;
+    const Lighting lighting = c.under_lights(visibility, e);
     c.compare(lighting, Precision::Highp);
     c.compare(lighting, Precision::Mediump);
   }
@@ -303,11 +308,7 @@ TEST(BoundAll, BatchesHoldClothSeenAlongItsNormal) {
   }
   for (const auto visibility : {albedo::Visibility::Charlie, albedo::Visibility::Refined}) {
     const albedo::Interpolant e(visibility);
-    Lighting lighting;
-    lighting.lights = c.lights.data();
-    lighting.light_count = c.lights.size();
-    lighting.sheen = {visibility, albedo::AlbedoScaling::Full};
-    lighting.albedo.interpolant = &e;
+    const Lighting lighting = c.under_lights(visibility, e);
     std::vector<std::uint32_t> order(c.surfaces.size());
     std::iota(order.begin(), order.end(), 0u);
     std::vector<brdf::Rgb<Bound>> one(order.size());
