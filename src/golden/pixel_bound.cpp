@@ -22,27 +22,23 @@ PixelBound::PixelBound(const Frame& frame)
     : frame_(frame),
       near_misses_(frame),
       reader_(frame.geometry, frame.rays, frame.reader, frame.model.model),
-      lights_(seen_from(frame.rays, frame.lights)) {
+      lights_(seen_from(frame.rays, frame.lights)),
+      albedos_(frame.scene.materials.size()) {
   if (frame.settings.environment != nullptr && frame.settings.drawn_directions > 0) {
     drawn_image_.emplace(*frame.settings.environment, frame.rays.view_from_world());
   }
-  for (std::size_t i = 0; frame.ggx && i < frame.scene.materials.size(); ++i) {
-    const SurfaceReader::Material& m = frame.reader.material(static_cast<int>(i));
-    std::optional<GgxAround>& around = base_albedos_.emplace_back();
-    if (m.source != nullptr && (!m.metallic_roughness.texture || m.source->roughness_factor == 0.0)) {
-      const Bound roughness(m.source->roughness_factor);
-      around.emplace(ggx_around(*frame.ggx, roughness * roughness));
-    }
-  }
-  if (!frame.albedo) {
+}
+
+void PixelBound::make(Albedos& albedos, const SurfaceReader::Material& material) const {
+  if (material.source == nullptr) {
     return;
   }
-  for (std::size_t i = 0; i < frame.scene.materials.size(); ++i) {
-    const SurfaceReader::Material& m = frame.reader.material(static_cast<int>(i));
-    std::optional<AlbedoAround>& around = albedos_.emplace_back();
-    if (m.layers.sheen && !m.sheen_roughness.texture && frame.model.model != brdf::Model::Draft2019) {
-      around.emplace(albedo_around(*frame.albedo, Bound(m.source->sheen.roughness_factor)));
-    }
+  if (frame_.ggx && (!material.metallic_roughness.texture || material.source->roughness_factor == 0.0)) {
+    const Bound roughness(material.source->roughness_factor);
+    albedos.base.emplace(ggx_around(*frame_.ggx, roughness * roughness));
+  }
+  if (frame_.albedo && material.layers.sheen && !material.sheen_roughness.texture && frame_.model.model != brdf::Model::Draft2019) {
+    albedos.sheen.emplace(albedo_around(*frame_.albedo, Bound(material.source->sheen.roughness_factor)));
   }
 }
 
@@ -62,8 +58,12 @@ Lighting PixelBound::lighting(int material) const {
   Lighting lighting = frame_.lighting();
   lighting.lights = lights_.data();
   const auto m = static_cast<std::size_t>(material);
-  lighting.albedo.around = m < albedos_.size() && albedos_[m] ? &*albedos_[m] : nullptr;
-  lighting.base_albedo.around = m < base_albedos_.size() && base_albedos_[m] ? &*base_albedos_[m] : nullptr;
+  if (m < albedos_.size()) {
+    Albedos& albedos = albedos_[m];
+    std::call_once(albedos.made, [&] { make(albedos, frame_.reader.material(material)); });
+    lighting.albedo.around = albedos.sheen ? &*albedos.sheen : nullptr;
+    lighting.base_albedo.around = albedos.base ? &*albedos.base : nullptr;
+  }
   return lighting;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -40,17 +41,24 @@ class PixelBound {
   const BoundedSurfaceReader& reader() const { return reader_; }
   /// Null unless the settings say that a shader draws directions toward an environment.
   const DrawnImage* drawn_image() const { return drawn_image_ ? &*drawn_image_ : nullptr; }
-  /// What a material's surfaces in view space are shaded with.
+  /// What a material's surfaces in view space are shaded with. Safe to call from many threads.
   Lighting lighting(int material) const;
 
  private:
+  /// Albedos about what all surfaces of a material have. They cost more than many a picture, and a material may never be met.
+  struct Albedos {
+    std::once_flag made;
+    std::optional<AlbedoAround> sheen;  // without a texture of sheen roughness
+    std::optional<GgxAround> base;      // of one roughness, in the physical model
+  };
+  void make(Albedos& albedos, const SurfaceReader::Material& material) const;
+
   const Frame& frame_;
   NearMisses near_misses_;
   BoundedSurfaceReader reader_;
   std::optional<DrawnImage> drawn_image_;
-  std::vector<PreparedLight> lights_;                   // in view space
-  std::vector<std::optional<AlbedoAround>> albedos_;    // of materials without a texture of sheen roughness
-  std::vector<std::optional<GgxAround>> base_albedos_;  // and whose roughness is one, in the physical model
+  std::vector<PreparedLight> lights_;     // in view space
+  mutable std::vector<Albedos> albedos_;  // of each material, made when first asked for
 };
 
 }  // namespace sheen::golden
