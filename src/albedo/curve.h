@@ -1,8 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 
 #include "albedo/coordinates.h"
+#include "albedo/patch_places.h"
 #include "albedo/patch_powers.h"
 #include "brdf/math.h"
 #include "number/lanes.h"
@@ -11,10 +13,15 @@ namespace sheen::albedo {
 
 class Interpolant;
 
-/// E at one roughness, as a function of the cosine alone, in any number type: what Interpolant::at_roughness gives, to rounding. A surface
-/// that is lit from a thousand directions asks for E as often.
+/// E at one roughness, as a function of the cosine alone, in any number type: what the interpolant gives, to rounding. A surface that is
+/// lit from a thousand directions asks for E as often. Each patch is made when first asked for. Safe to call from many threads.
 class Curve {
  public:
+  /// @param interpolant  must outlive this
+  Curve(const Interpolant& interpolant, double sheen_roughness);
+  Curve(const Curve&) = delete;
+  Curve& operator=(const Curve&) = delete;
+
   static constexpr int nodes = 12;                  ///< of a patch
   static constexpr double patch_x = -branch_x / 2;  ///< the length of a patch in x, so that the branch point is a border
   /// Patches reach down to n_dot_v = 5e-5. What would be the first is four: about normal incidence a rough cloth's E bends within 1 / p.
@@ -46,14 +53,6 @@ class Curve {
       return Real(0);
     }
     const Real mu = min(max(n_dot_v, Real(min_n_dot_v)), Real(1));
-    if (!usable_) {
-      double each[Lanes::count];
-      Lanes::store(each, mu);
-      for (double& e : each) {
-        e = slowly(e);
-      }
-      return Lanes::load(each);
-    }
     const Real t = mu / (Real(1) + sqrt((Real(1) - mu) * (Real(1) + mu)));
     const Real drop = log(Real(1) + t * t) * Real(0.5 / (sheen_roughness_ * sheen_roughness_));
     const Real along = log(t) * Real(-1 / patch_x);
@@ -62,11 +61,21 @@ class Curve {
     double per_length[Lanes::count];
     std::size_t offset[Lanes::count];
     Lanes::store(position, along);
+    bool usable = true;
     for (std::size_t i = 0; i < Lanes::count; ++i) {
       const int patch = patch_at(position[i]);
+      usable = is_usable(patch) && usable;
       start[i] = start_of(patch);
       per_length[i] = 1 / length_of(patch);
       offset[i] = static_cast<std::size_t>(patch) * nodes;
+    }
+    if (!usable) {
+      double each[Lanes::count];
+      Lanes::store(each, mu);
+      for (double& e : each) {
+        e = slowly(e);
+      }
+      return Lanes::load(each);
     }
     const Real local = Real(1) - Real(2) * (along - Lanes::load(start)) * Lanes::load(per_length);
     const Real h = patch_polynomial<nodes>(powers_[0], offset, local);
@@ -74,14 +83,20 @@ class Curve {
   }
 
  private:
-  friend class Interpolant;
-  Curve(const Interpolant& interpolant, double sheen_roughness) : interpolant_(&interpolant), sheen_roughness_(sheen_roughness) {}
+  enum class State : unsigned char { Unmade, Usable, Unusable };
+
+  bool is_usable(int patch) const {
+    const State state = state_[patch].load(std::memory_order_acquire);
+    return (state == State::Unmade ? make(patch) : state) == State::Usable;
+  }
+  State make(int patch) const;
   double slowly(double n_dot_v) const;
 
   const Interpolant* interpolant_;
   double sheen_roughness_;
-  bool usable_ = true;
-  double powers_[patches][nodes] = {};  // of h over each patch, its ends at 1 (the larger cosine) and -1
+  PlaceInRow<nodes> place_;                         // of the roughness among the interpolant's, where it is above 0
+  mutable std::atomic<State> state_[patches] = {};  // of the powers
+  mutable double powers_[patches][nodes] = {};      // of h over each patch, its ends at 1 (the larger cosine) and -1
 };
 
 }  // namespace sheen::albedo

@@ -83,6 +83,7 @@ SheenCosine cosine_at(double t, double log_peak) {
 struct Interpolant::Impl {
   Visibility visibility;
   std::array<std::array<Patch, patches_x>, patches_y> patches;
+  std::mutex making_curves;
 
   explicit Impl(Visibility v) : visibility(v) {}
 
@@ -170,28 +171,26 @@ double Interpolant::operator()(double n_dot_v, double sheen_roughness) const {
   return (*this)(one, roughness(r));
 }
 
-Curve Interpolant::at_roughness(double sheen_roughness) const {
-  const double r = std::min(sheen_roughness, 1.0);
-  Curve curve(*this, r);
-  if (!(r > 0)) {
-    return curve;
-  }
-  const SheenRoughness place = roughness(r);
-  for (int ix = 0; ix < patches_x; ++ix) {
-    // The least T of the patch: where the drop is least.
-    if (!(log_peak_drop(std::exp(-patch_x * (Curve::start_of(ix) + Curve::length_of(ix))), r) < negligible_drop)) {
-      continue;
-    }
-    const Patch& patch = impl_->patch(ix, place.r.row);
-    curve.usable_ = curve.usable_ && patch.usable;
-    const Nodes values = patch.row(place.r.shares);
+Curve::Curve(const Interpolant& interpolant, double sheen_roughness)
+    : interpolant_(&interpolant), sheen_roughness_(std::min(sheen_roughness, 1.0)), place_(Interpolant::roughness(sheen_roughness).r) {}
+
+Curve::State Curve::make(int patch) const {
+  // The least T of the patch: where the drop is least. Where it is not negligible, neither is it elsewhere, and powers of 0 do.
+  const double least = std::exp(-patch_x * (start_of(patch) + length_of(patch)));
+  const bool is_needed = log_peak_drop(least, sheen_roughness_) < negligible_drop;
+  const Patch* of = is_needed ? &interpolant_->impl_->patch(patch, place_.row) : nullptr;
+  const State state = of == nullptr || of->usable ? State::Usable : State::Unusable;
+  const std::lock_guard lock(interpolant_->impl_->making_curves);
+  if (of != nullptr && state_[patch].load(std::memory_order_relaxed) == State::Unmade) {
+    const Nodes values = of->row(place_.shares);
     for (int power = 0; power < nodes; ++power) {
       for (int i = 0; i < nodes; ++i) {
-        curve.powers_[ix][power] += chebyshev().powers[power][i] * values[i];
+        powers_[patch][power] += chebyshev().powers[power][i] * values[i];
       }
     }
   }
-  return curve;
+  state_[patch].store(state, std::memory_order_release);
+  return state;
 }
 
 double Curve::slowly(double n_dot_v) const {

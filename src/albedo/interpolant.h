@@ -37,9 +37,10 @@ class Interpolant {
   static SheenRoughness roughness(double sheen_roughness);
 
   /// The same at one roughness, for any number type. This must outlive it.
-  Curve at_roughness(double sheen_roughness) const;
+  Curve at_roughness(double sheen_roughness) const { return Curve(*this, sheen_roughness); }
 
  private:
+  friend class Curve;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -104,5 +104,21 @@ TEST(Curve, IsTheInterpolantAtOneRoughness) {
   }
 }
 
+// Each thread comes upon patches that no other has asked for, and upon some that another is making.
+TEST(Curve, GivesEveryThreadTheSame) {
+  const Interpolant interpolant(Visibility::Charlie);
+  const auto cosine = [](std::size_t i) { return std::exp(-0.0025 * static_cast<double>((i * 397) % 4000)); };
+  for (const double r : {0.25, 0.26, 0.9}) {
+    const Curve shared = interpolant.at_roughness(r);
+    std::vector<double> parallel(4000), serial(4000);
+    tbb::parallel_for(std::size_t{0}, parallel.size(), [&](std::size_t i) { parallel[i] = shared(cosine(i)); });
+    const Curve alone = interpolant.at_roughness(r);
+    for (std::size_t i = serial.size(); i-- > 0;) {
+      serial[i] = alone(cosine(i));
+    }
+    EXPECT_EQ(parallel, serial) << "sheen_roughness " << r;
+  }
+}
+
 }  // namespace
 }  // namespace sheen::albedo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
 
 #include "albedo/curve.h"
 #include "albedo/ggx_interpolant.h"
@@ -15,10 +16,23 @@ namespace sheen::golden {
 
 /// E at a material's sheen roughness and at both ends of what a shader may hold of it.
 struct AlbedoAround {
-  struct Curve {
-    albedo::Curve e;
-    albedo::Peak peak;
+  /// Safe to call from many threads.
+  class Curve {
+   public:
+    Curve(const albedo::Interpolant& albedo, double sheen_roughness) : e(albedo, sheen_roughness) {}
+    const albedo::Curve e;
+    /// Found when first asked for: it needs all of the curve near grazing angles.
+    const albedo::Peak& peak() const;
+
+   private:
+    mutable std::once_flag found_;
+    mutable albedo::Peak peak_{};
   };
+  /// @param albedo  must outlive this
+  AlbedoAround(const albedo::Interpolant& albedo, const Bound& sheen_roughness)
+      : lower(albedo, sheen_roughness.range().lower),
+        center(albedo, sheen_roughness.center()),
+        upper(albedo, sheen_roughness.range().upper) {}
   Curve lower, center, upper;
 };
 

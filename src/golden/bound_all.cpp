@@ -40,12 +40,9 @@ auto OneAlbedo<Precision>::ggx_average(const BaseAlbedo& albedo, const GgxAlphas
 template struct OneAlbedo<number::Highp>;
 template struct OneAlbedo<number::Mediump>;
 
-AlbedoAround albedo_around(const albedo::Interpolant& albedo, const Bound& sheen_roughness) {
-  const auto at = [&albedo](double roughness) -> AlbedoAround::Curve {
-    const albedo::Curve curve = albedo.at_roughness(roughness);
-    return {curve, albedo::peak_of(curve, 16)};
-  };
-  return {at(sheen_roughness.range().lower), at(sheen_roughness.center()), at(sheen_roughness.range().upper)};
+const albedo::Peak& AlbedoAround::Curve::peak() const {
+  std::call_once(found_, [this] { peak_ = albedo::peak_of(e, 16); });
+  return peak_;
 }
 
 GgxAround ggx_around(const albedo::GgxInterpolant& ggx, const Bound& alpha) {

@@ -24,8 +24,6 @@ struct OneAlbedo {
 extern template struct OneAlbedo<number::Highp>;
 extern template struct OneAlbedo<number::Mediump>;
 
-/// E about one roughness.
-AlbedoAround albedo_around(const albedo::Interpolant& albedo, const Bound& sheen_roughness);
 /// Albedo of the GGX lobe about one alpha.
 GgxAround ggx_around(const albedo::GgxInterpolant& ggx, const Bound& alpha);
 

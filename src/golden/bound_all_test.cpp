@@ -161,7 +161,7 @@ TEST(BoundAll, CurvesAboutOneRoughnessAgreeWithTheInterpolant) {
   Comparison c;
   const albedo::Interpolant e(albedo::Visibility::Charlie);
   const Bound roughness(0.3);
-  const AlbedoAround around = albedo_around(e, roughness);
+  const AlbedoAround around(e, roughness);
   std::vector<std::uint32_t> order;
   for (std::size_t i = 0; i < c.surfaces.size(); ++i) {
     if (!c.surfaces[i].sheen_roughness.is_exact()) {
@@ -197,7 +197,7 @@ double expect_held(Comparison& c, std::mt19937& random) {
   std::iota(order.begin(), order.end(), 0u);
   const albedo::Interpolant e(albedo::Visibility::Charlie);
   const albedo::GgxInterpolant ggx;
-  const AlbedoAround around = albedo_around(e, Bound(0.3));
+  const AlbedoAround around(e, Bound(0.3));
   for (Surface<Bound>& s : c.surfaces) {
     s.sheen_roughness = Bound(0.3);
   }

@@ -102,7 +102,7 @@ TEST(BoundedAlbedo, HoldsEOfOneRoughnessAtAllCosines) {
     const albedo::Interpolant e(visibility);
     for (const double sheen_roughness : {0.05, 0.3, 0.5, 1.0}) {
       const Bound roughness(sheen_roughness);
-      const AlbedoAround around = albedo_around(e, roughness);
+      const AlbedoAround around(e, roughness);
       SheenAlbedo albedo;
       albedo.interpolant = &e;
       albedo.around = &around;

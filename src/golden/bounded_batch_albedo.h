@@ -245,7 +245,8 @@ struct AlbedoReader<number::BoundedBatch<Precision>> {
     const number::BatchMask wide = reading.wide;
     if (xsimd::any(may_turn)) {
       for (const AlbedoAround::Curve* curve : {&around.lower, &around.center, &around.upper}) {
-        reading.turn(curve->peak.from, curve->peak.to, curve->peak.e, curve->peak.e);
+        const albedo::Peak& peak = curve->peak();
+        reading.turn(peak.from, peak.to, peak.e, peak.e);
       }
       reading.bend_within(may_turn);
     }

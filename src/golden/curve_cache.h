@@ -12,7 +12,7 @@ class CurveCache {
  public:
   const albedo::Curve* at(const albedo::Interpolant* interpolant, double sheen_roughness) {
     if (!curve_ || curve_->sheen_roughness() != sheen_roughness) {
-      curve_ = interpolant->at_roughness(sheen_roughness);
+      curve_.emplace(*interpolant, sheen_roughness);
     }
     return &*curve_;
   }

@@ -112,7 +112,7 @@ TEST(Parts, AddUpToAllThatSurfacesMayShow) {
   for (const Case& c : cases) {
     SCOPED_TRACE(c.name);
     const albedo::Interpolant e(c.visibility);
-    const AlbedoAround around = albedo_around(e, Bound(0.3));
+    const AlbedoAround around(e, Bound(0.3));
     Parts p;
     for (std::size_t i = 0; c.scaling == AlbedoScaling::Literal && i < p.surfaces.size(); ++i) {
       // Where E passes 1: white cloth seen at a grazing angle.

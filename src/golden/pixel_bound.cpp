@@ -38,7 +38,7 @@ void PixelBound::make(Albedos& albedos, const SurfaceReader::Material& material)
     albedos.base.emplace(ggx_around(*frame_.ggx, roughness * roughness));
   }
   if (frame_.albedo && material.layers.sheen && !material.sheen_roughness.texture && frame_.model.model != brdf::Model::Draft2019) {
-    albedos.sheen.emplace(albedo_around(*frame_.albedo, Bound(material.source->sheen.roughness_factor)));
+    albedos.sheen.emplace(*frame_.albedo, Bound(material.source->sheen.roughness_factor));
   }
 }
 

@@ -39,7 +39,7 @@ struct SheenRange {
       const auto around = [&albedo](End end) -> const AlbedoAround::Curve& {
         return end == End::Center ? albedo.around->center : end == End::Lower ? albedo.around->lower : albedo.around->upper;
       };
-      return narrow([&](double c, End end) { return around(end).e(c); }, [&](End end) { return around(end).peak; }, cosine, roughness);
+      return narrow([&](double c, End end) { return around(end).e(c); }, [&](End end) { return around(end).peak(); }, cosine, roughness);
     }
     const albedo::Interpolant& interpolant = *albedo.interpolant;
     Kept<albedo::SheenCosine> cosines(albedo::Interpolant::cosine);
