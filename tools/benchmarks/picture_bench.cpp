@@ -1,5 +1,5 @@
 // A whole picture of a velvet sphere, 256 x 256, three lights, and light from everywhere beside them: the golden with its bounds, and a
-// frame of the renderer.
+// frame of the renderer. And a small picture of many cloths.
 #include <memory>
 
 #include <benchmark/benchmark.h>
@@ -7,6 +7,7 @@
 #include "gles/context.h"
 #include "golden/golden.h"
 #include "renderer/renderer.h"
+#include "tools/benchmarks/patchwork_scene.h"
 #include "tools/benchmarks/sphere_scene.h"
 
 namespace {
@@ -34,6 +35,19 @@ BENCHMARK_CAPTURE(golden_picture, clearcoat_over_sheen, true, false, false)->Uni
 BENCHMARK_CAPTURE(golden_picture, clearcoat_over_sheen_with_bounds, true, true, false)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(golden_picture, in_uniform_light, true, false, true)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(golden_picture, in_uniform_light_with_bounds, true, true, true)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void golden_patchwork(benchmark::State& state, bool bounds) {
+  const sheen::scene::Scene scene = sheen::bench::patchwork_scene();
+  sheen::golden::Settings settings;
+  settings.view.width = 64;
+  settings.view.height = 64;
+  settings.bounds = bounds;
+  for ([[maybe_unused]] auto step : state) {
+    benchmark::DoNotOptimize(sheen::golden::render(scene, settings));
+  }
+}
+BENCHMARK_CAPTURE(golden_patchwork, plain, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(golden_patchwork, with_bounds, true)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void renderer_frame(benchmark::State& state, sheen::gles::ContextKind kind, bool clearcoat) {
   std::unique_ptr<sheen::gles::Context> context;
