@@ -62,6 +62,9 @@ TEST_F(CommandLine, UsageErrorsExitWithTwo) {
   expect_refused(run({"render", scene, "-o", out, "--visibility", "0"}), 2, "--visibility");
   expect_refused(run({"render", scene, "-o", out, "--albedo-scaling", "fulll"}), 2, "--albedo-scaling");
   expect_refused(run({"render", scene, "-o", out, "--exposure", "nan"}), 2, "--exposure");
+  expect_refused(run({"render", scene, "-o", out, "--environment-rotation", "nan"}), 2, "--environment-rotation");
+  expect_refused(run({"golden", scene, "-o", out, "--error", "nan"}), 2, "--error");
+  expect_refused(run({"run", "--suite", "core", "--case-limit", "nan"}), 2, "--case-limit");
   expect_refused(run({"render", scene, "-o", out, "--light", "directional:0,0,0:1"}), 2, "--light");
   expect_refused(run({"render", scene, "-o", out, "--albedo-source", "fit", "--visibility", "refined"}), 2, "fit");
   expect_refused(run({"golden", scene, "-o", out, "--context", "egl"}), 2, "--context");

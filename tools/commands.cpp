@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <string>
@@ -24,6 +25,14 @@ namespace {
 /// Largest width, height and table size: the picture of a golden with bounds then still fits 8 GB.
 constexpr int max_size = 16384;
 constexpr int max_table_size = 4096;
+
+/// What CLI::Range allows but NaN, which passes its comparisons.
+CLI::Validator within(double least, double most) {
+  const auto number = [](const std::string& text) {
+    return std::string(std::isnan(std::strtod(text.c_str(), nullptr)) ? "must be a number" : "");
+  };
+  return CLI::Range(least, most) & CLI::Validator(number, "");
+}
 
 void add_json(CLI::App& app, Common& options) {
   app.add_flag("--json", options.json, "Print one JSON object on stdout, messages on stderr");
@@ -86,7 +95,7 @@ void add_scene(CLI::App& app, SceneOptions& options) {
                  "uniform:R,G,B (radiance), or an equirect .hdr or .exr; lights beside the scene's lights")
       ->type_name("LIGHT");
   app.add_option("--environment-rotation", options.environment_rotation, "Degrees counter-clockwise about +Y")
-      ->check(CLI::Range(-1e6, 1e6))
+      ->check(within(-1e6, 1e6))
       ->capture_default_str();
   app.add_flag("--background", options.background, "Show the environment where no surface is");
   add_json(app, options);
@@ -116,7 +125,7 @@ void add_sampling(CLI::App& app, GoldenOptions& options) {
   app.add_option("--error", options.error,
                  "Draw directions toward an image until 99 % of the covered pixels have, in every channel, a relative standard error "
                  "below this, and no direction that may bring more (0.01)")
-      ->check(CLI::Range(1e-6, 1.0))
+      ->check(within(1e-6, 1.0))
       ->type_name("REL");
   app.add_option(
          "--samples", options.samples,
@@ -154,14 +163,11 @@ Action declare_render(CLI::App& app) {
   app.add_flag("--verify", options->verify, "Then compute the golden and judge the image; exit 1 when a pixel is outside its bound");
   add_word(app, "--tone-map", options->tone_map, tone_map_words, "Curve applied to what is written");
   app.add_option("--exposure", options->exposure, "EV: the radiance written is multiplied by 2^EV")
-      ->check(CLI::Range(-100.0, 100.0))
+      ->check(within(-100.0, 100.0))
       ->capture_default_str();
   return [options, &app] {
     resolve_model(app, *options);
     check_shader(*options);
-    if (!std::isfinite(options->exposure)) {
-      throw UsageError("--exposure: must be a finite number");
-    }
     return render(*options);
   };
 }
@@ -263,7 +269,7 @@ Action declare_run(CLI::App& app) {
   add_path(app, "--goldens", options->goldens, "Folder of the committed goldens (those that came with this program)")->type_name("DIR");
   app.add_flag("--strict", options->strict, "Approximations count as failures");
   app.add_option("--case-limit", options->case_limit_seconds, "Seconds that a viewer has for one picture before its case is a timeout")
-      ->check(CLI::Range(0.001, 86400.0))
+      ->check(within(0.001, 86400.0))
       ->type_name("SECONDS")
       ->capture_default_str();
   app.add_option("--environment-samples", options->environment_samples,
