@@ -11,7 +11,8 @@ vec3 base_mirror(BaseMaterial material, float NdotV) {
 #else
     vec3 dielectric = vec3(0.04 + 0.96 * w);
 #endif
-    return mix(dielectric, material.baseColor + (1.0 - material.baseColor) * w, material.metallic);
+    vec3 metal = material.baseColor + (1.0 - material.baseColor) * w;
+    return dielectric * rest(material.metallic) + metal * material.metallic;
 }
 
 // What albedo scaling leaves of a base whose light is not followed direction by direction: over a mirror the truth, else what

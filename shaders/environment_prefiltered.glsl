@@ -96,7 +96,8 @@ vec3 base_environment(BaseMaterial material, LayerView view, float roughness) {
 #else
     vec3 dielectric = (1.0 - (0.04 + 0.96 * sums.b)) * diffuse + specular * (0.04 * sums.r + sums.g);
 #endif
-    return mix(dielectric, specular * (material.baseColor * sums.r + sums.g), material.metallic);
+    vec3 metal = specular * (material.baseColor * sums.r + sums.g);
+    return dielectric * rest(material.metallic) + metal * material.metallic;
 }
 #endif
 
@@ -112,7 +113,7 @@ vec3 environment_light(Surface surface) {
     LayerView coat = surface.coat_view;
     vec3 sums = split_sum(coat.NdotV, surface.clearcoat_roughness);
     vec3 coat_light = specular_light(coat, surface.clearcoat_roughness) * (sums.r + sums.g);
-    reflected = mix(reflected, coat_light, surface.k);
+    reflected = reflected * rest(surface.k) + coat_light * surface.k;
 #endif
     return reflected;
 }

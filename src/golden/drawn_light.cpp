@@ -100,7 +100,7 @@ Color mirrors(const Surface<Bound>& surface, Layers layers, const Lighting& ligh
   Color sum{Bound(0.0), Bound(0.0), Bound(0.0)};
   if (brdf::is_mirror(surface.base.alpha.center())) {
     const LobeView<Bound> lobe(surface.normal, surface.view);
-    const Bound w = brdf::schlick_weight(lobe.n_dot_v);
+    const Bound w = As<Bound>::number(brdf::schlick_weight(As<Lobe>::number(lobe.n_dot_v)));
     Bound scale = one;
     if (layers.sheen) {
       const SheenLayer<Bound, Lobe> sheen(surface, lobe, lighting);
