@@ -88,7 +88,7 @@ class Judge {
   }
   bool negative(int x, int y) const {
     for (std::size_t c = 0; c < 3; ++c) {
-      const bool expected = rules_.may_be_negative && sample(x, y, c).reference < sample(x, y, c).bound;
+      const bool expected = rules_.may_be_negative && (excluded(x, y) || sample(x, y, c).reference < sample(x, y, c).bound);
       if (candidate_.at(x, y, channels_.candidate.at(c)) < 0 && golden_.at(x, y, channels_.golden.at(c)) >= 0 && !expected) {
         return true;
       }

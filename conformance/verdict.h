@@ -45,7 +45,8 @@ struct VerdictRules {
   bool golden_is_pxr24 = false;
   /// The candidate came as 8-bit sRGB codes: each holds every value within half a code, and nothing above 1.
   bool candidate_is_srgb8 = false;
-  /// Whether radiance may be below zero wherever the bound reaches there: of a model that does not clamp its scale. Of others it never may.
+  /// Whether radiance may be below zero wherever the bound reaches there, and at excluded pixels, whose bound says nothing of what another
+  /// surface shows: of a model that does not clamp its scale. Of others it never may.
   bool may_be_negative = false;
   /// Leave out the pixels of the golden's channel "mirrored" (N.V <= 0, where the choice taken binds our own viewer alone).
   bool leave_out_mirrored = false;

@@ -123,6 +123,10 @@ TEST_F(VerdictRulesTest, WithinItsBoundAValueMayBeNegativeOnlyIfTheRulesSaySo) {
   EXPECT_EQ(verdict().status, Status::Pass);
   golden_.at(1, 3, 4) = 0.005F;
   EXPECT_EQ(verdict().negative_pixels, 1) << "where the bound does not reach below zero";
+  golden_.at(1, 3, golden_.channel("excluded")) = 1.0F;
+  EXPECT_EQ(verdict().negative_pixels, 0) << "another surface may show";
+  rules_.may_be_negative = false;
+  EXPECT_EQ(verdict().negative_pixels, 1) << "no surface may show that";
 }
 
 TEST_F(VerdictRulesTest, AToleranceIsGrantedBeyondTheBoundAndToColoursAlone) {

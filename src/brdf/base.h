@@ -42,15 +42,23 @@ class BaseLayer {
   /// @param n_dot_h, sin2_theta_h  cosine and squared sine of the half vector's angle
   /// @param v_dot_h  [0, 1]
   Rgb<Real> brdf(Real n_dot_l, Real n_dot_h, Real sin2_theta_h, Real v_dot_h) const {
+    return mixed(lobe_.value(n_dot_l, n_dot_h, sin2_theta_h), Real(1 / pi), v_dot_h);
+  }
+
+  /// brdf() N.L with the cosine multiplied into each of its terms; see GgxLobe::value_times_n_dot_l.
+  Rgb<Real> brdf_times_n_dot_l(Real n_dot_l, Real n_dot_h, Real sin2_theta_h, Real v_dot_h) const {
+    return mixed(lobe_.value_times_n_dot_l(n_dot_l, n_dot_h, sin2_theta_h), n_dot_l * Real(1 / pi), v_dot_h);
+  }
+
+ private:
+  Rgb<Real> mixed(const Real& lobe, const Real& diffuse, const Real& v_dot_h) const {
     const Real w = schlick_weight(v_dot_h);
-    const Real lobe = lobe_.value(n_dot_l, n_dot_h, sin2_theta_h);
     const Rgb<Real> fr = base_.dielectric_f0 + dielectric_rest_ * w;
-    const Rgb<Real> dielectric = base_.color * ((Real(1) - base_.specular * max3(fr)) * Real(1 / pi)) + fr * (base_.specular * lobe);
+    const Rgb<Real> dielectric = base_.color * ((Real(1) - base_.specular * max3(fr)) * diffuse) + fr * (base_.specular * lobe);
     const Rgb<Real> metal = (base_.color + metal_rest_ * w) * lobe;
     return dielectric * dielectric_share_ + metal * base_.metallic;
   }
 
- private:
   static Rgb<Real> rest(const Rgb<Real>& f0) { return {Real(1) - f0.r, Real(1) - f0.g, Real(1) - f0.b}; }
 
   Base<Real> base_;

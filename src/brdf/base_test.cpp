@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "brdf/physical_base.h"
+
 namespace sheen::brdf {
 namespace {
 
@@ -75,6 +77,23 @@ TEST(Base, DielectricSplitsLightBetweenDiffuseAndSpecular) {
   EXPECT_NEAR(value.g, (1 - fresnel) * 0.4 / pi + fresnel * lobe, 1e-14);
   const auto metal = base_brdf(base_of(1), l, v, h, 1 - h * h, vh);
   EXPECT_NEAR(metal.g, (0.4 + 0.6 * w) * lobe, 1e-14);
+}
+
+TEST(Base, TakesTheCosineIntoEachTermOrAfterwards) {
+  const double l = 0.6, v = 0.7, h = 0.9, vh = 0.75;
+  for (const double metallic : {0.0, 0.3, 1.0}) {
+    const BaseLayer<double> layer(base_of(metallic), v);
+    const auto apart = layer.brdf(l, h, 1 - h * h, vh) * l;
+    const auto within = layer.brdf_times_n_dot_l(l, h, 1 - h * h, vh);
+    EXPECT_NEAR(within.r, apart.r, 1e-15);
+    EXPECT_NEAR(within.b, apart.b, 1e-15);
+    const LobeAlbedo<double> light{0.1, 0.03}, view{0.08, 0.02}, average{0.09, 0.025};
+    const PhysicalBase<double> physical(base_of(metallic), view, average);
+    const auto physical_apart = physical.brdf(light, l, v, h, 1 - h * h, vh) * l;
+    const auto physical_within = physical.brdf_times_n_dot_l(light, l, v, h, 1 - h * h, vh);
+    EXPECT_NEAR(physical_within.r, physical_apart.r, 1e-15);
+    EXPECT_NEAR(physical_within.b, physical_apart.b, 1e-15);
+  }
 }
 
 TEST(Base, WithoutSpecularIsLambertian) {

@@ -45,12 +45,20 @@ class GgxLobe {
   /// The specular lobe D Vis in 1/sr. A mirror has none: 0, even where both cosines vanish with alpha and Vis has no value.
   /// @param n_dot_h, sin2_theta_h  as for ggx_distribution
   Real value(Real n_dot_l, Real n_dot_h, Real sin2_theta_h) const {
-    const auto lobe = [&] { return Real(ggx_distribution(alpha_, n_dot_h, sin2_theta_h) * visibility(n_dot_l)); };
-    return select_of(alpha_ > Real(mirror_alpha), lobe, [] { return Real(0); });
+    return unless_mirror([&] { return Real(ggx_distribution(alpha_, n_dot_h, sin2_theta_h) * visibility(n_dot_l)); });
+  }
+
+  /// value() N.L with the cosine multiplied into Vis, as a shader has it whose small numbers lose their digits.
+  Real value_times_n_dot_l(Real n_dot_l, Real n_dot_h, Real sin2_theta_h) const {
+    return unless_mirror([&] { return Real(ggx_distribution(alpha_, n_dot_h, sin2_theta_h) * (visibility(n_dot_l) * n_dot_l)); });
   }
 
  private:
   Real root(const Real& cosine) const { return sqrt(a2_ + rest_ * cosine * cosine); }
+  template <class Lobe>
+  Real unless_mirror(const Lobe& lobe) const {
+    return select_of(alpha_ > Real(mirror_alpha), lobe, [] { return Real(0); });
+  }
 
   Real alpha_, n_dot_v_, a2_, rest_, root_v_;
 };

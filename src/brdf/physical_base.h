@@ -38,8 +38,14 @@ class PhysicalBase {
   /// In 1/sr; arguments as for base_brdf. @param light  albedo of the lobe at N.L
   Rgb<Real> brdf(const LobeAlbedo<Real>& light, Real n_dot_l, Real n_dot_v, Real n_dot_h, Real sin2_theta_h, Real v_dot_h) const {
     const Real lobe = specular_ggx(base_.alpha, n_dot_l, n_dot_v, n_dot_h, sin2_theta_h);
-    const Real diffuse = transmitted(light) * transmitted_view_ * per_transmitted_ * Real(1 / pi);
-    return mixed(diffuse, lobe, lobe * schlick_weight(v_dot_h), multiple_scattering_lobe(light.loss, view_.loss, average_loss_));
+    return mixed(diffuse(light), lobe, lobe * schlick_weight(v_dot_h), multiple(light));
+  }
+
+  /// brdf() N.L with the cosine multiplied into each of its terms; see GgxLobe::value_times_n_dot_l.
+  Rgb<Real> brdf_times_n_dot_l(const LobeAlbedo<Real>& light, Real n_dot_l, Real n_dot_v, Real n_dot_h, Real sin2_theta_h,
+                               Real v_dot_h) const {
+    const Real lobe = GgxLobe<Real>(base_.alpha, n_dot_v).value_times_n_dot_l(n_dot_l, n_dot_h, sin2_theta_h);
+    return mixed(diffuse(light) * n_dot_l, lobe, lobe * schlick_weight(v_dot_h), multiple(light) * n_dot_l);
   }
 
   /// What leaves toward the viewer under light of 1 from everywhere. f_ms and the diffuse part integrate to 1 - E(v) and 1 - E_s(v).
@@ -52,6 +58,10 @@ class PhysicalBase {
     const Real unreflected = (Real(1) - albedo.loss - albedo.bias) * (Real(1) - base_.specular * max3(base_.dielectric_f0));
     return unreflected + albedo.bias * (Real(1) - base_.specular) + albedo.loss * (Real(1) - max3(dielectric_ms_));
   }
+
+  /// Of the diffuse part what the base colour multiplies, and f_ms.
+  Real diffuse(const LobeAlbedo<Real>& light) const { return transmitted(light) * transmitted_view_ * per_transmitted_ * Real(1 / pi); }
+  Real multiple(const LobeAlbedo<Real>& light) const { return multiple_scattering_lobe(light.loss, view_.loss, average_loss_); }
 
   Rgb<Real> mixed(Real diffuse, Real lobe, Real lobe_w, Real multiple) const {
     const auto schlick = [&](const Rgb<Real>& f0) { return f0 * (lobe - lobe_w) + Rgb<Real>{lobe_w, lobe_w, lobe_w}; };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
@@ -360,6 +361,25 @@ TEST(Bound, OfAFaintLightHoldsWhatMayBeFlushed) {
     const image::Image golden = render(s, test::settings_for(side, side, true));
     for (int c = 0; c < 3; ++c) {
       EXPECT_GE(golden.at(side / 2, side / 2, 4 + c), 0x1p-126F) << "of " << lux << " lux";
+    }
+  }
+}
+
+// Half floats, which mediump may be, are multiples of 2^-24 near 0: a shader that multiplies N.L into the BRDF before it stores it rounds
+// what is less to either.
+TEST(Bound, OfMediumpHoldsWhatASmallProductWithTheCosineLoses) {
+  constexpr double n_dot_l = 1e-3, share = 0.3, lux = 1e4;
+  const double color = share * 0x1p-24 / n_dot_l * glm::pi<double>();
+  const scene::Scene s = test::scene_with(test::square(2.0), test::lambertian(glm::dvec4(color, color, color, 1.0)),
+                                          test::orthographic_at(5.0, ymag), {test::directional({1.0, 0.0, n_dot_l}, glm::dvec3(1.0), lux)});
+  Settings settings = test::settings_for(side, side, true);
+  settings.precision = Precision::Mediump;
+  for (const albedo::Model model : {albedo::Model::Ratified, albedo::Model::Physical}) {
+    settings.sheen.model = model;
+    const image::Image golden = render(s, settings);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(golden.at(side / 2, side / 2, c), share * 0x1p-24 * lux, 1e-2 * share * 0x1p-24 * lux);
+      EXPECT_GE(golden.at(side / 2, side / 2, 4 + c), (1 - share) * 0x1p-24 * lux) << "rounded up";
     }
   }
 }

@@ -17,7 +17,7 @@
 namespace sheen::golden {
 
 /// Changes with every change of a formula that can change a golden; part of the key of every cached or committed golden.
-inline constexpr const char* formula_version = "14";
+inline constexpr const char* formula_version = "15";
 
 /// The precision that a shader's lobes and Fresnel terms have; all else is highp.
 enum class Precision { Highp, Mediump };

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <type_traits>
 
 #include "brdf/clearcoat.h"
 #include "brdf/physical_base.h"
@@ -30,7 +31,7 @@ struct Lighting {
 template <class Real>
 inline constexpr bool finds_lookup_error = true;
 
-/// One light's part, as the shading found it; see LightTerms.
+/// One light's part, as the shading found it; see LightTerms. Where N.L is folded into the lobes, coat_lobe has it too.
 template <class Real>
 struct LightPart {
   Real n_dot_l, n_dot_h, d, v, e_l, scale, coat_lobe;
@@ -85,6 +86,21 @@ struct As {
     return {color(b.color), number(b.metallic), number(b.alpha), color(b.dielectric_f0), number(b.specular)};
   }
 };
+
+/// Whether N.L is multiplied into the lobes in their own arithmetic. shaders/ do that throughout: among mediump's small numbers it matters
+/// which product loses its digits. In one arithmetic for all it does not.
+template <class Real, class Lobe>
+inline constexpr bool folds_cosines = !std::is_same_v<Real, Lobe>;
+
+/// x N.L; or x, where the lobe that it is to weigh has N.L already.
+template <class Lobe, class Real>
+Real unless_folded(const Real& x, const Real& n_dot_l) {
+  if constexpr (folds_cosines<Real, Lobe>) {
+    return x;
+  } else {
+    return x * n_dot_l;
+  }
+}
 
 /// The half vector's angles about a lobe's normal, as the lobes' arithmetic finds them of N, V and H.
 template <class Lobe>
@@ -228,9 +244,11 @@ class CoatLayer {
     using brdf::select;
     const auto lit = cosine > Real(0);
     const Real n_dot_l = min(max(cosine, Real(0)), Real(1));
-    const Lobe lobe = lobe_.value(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h);
+    const Lobe of_lobe = As<Lobe>::number(n_dot_l);
+    const Lobe lobe = folds_cosines<Real, Lobe> ? lobe_.value_times_n_dot_l(of_lobe, half.n_dot_h, half.sin2_theta_h)
+                                                : lobe_.value(of_lobe, half.n_dot_h, half.sin2_theta_h);
     part.coat_lobe = times(As<Real>::number(lobe), factors_.coat_lobe);
-    part.coat = light.irradiance * select(lit, weight_ * part.coat_lobe * n_dot_l, Real(0));
+    part.coat = light.irradiance * select(lit, unless_folded<Lobe>(weight_ * part.coat_lobe, n_dot_l), Real(0));
   }
 
  private:
@@ -291,7 +309,7 @@ class BelowCoat {
     const TermFactors& factors = lighting_.factors;
     const Real n_dot_l = min(max(part.n_dot_l, Real(0)), Real(1));
     part.n_dot_h = As<Real>::number(half.n_dot_h);
-    const Color base = times(base_brdf(n_dot_l, half), factors.base);
+    const Color base = times(base_lobe(n_dot_l, half), factors.base);
     const Color irradiance = through_coat(light.irradiance);
     if (sheen_) {
       const bool needs_e_l = sheen_->two_directions() || wants_e_l;
@@ -306,19 +324,25 @@ class BelowCoat {
       part.sheen = keep_where(lit, irradiance * As<Real>::color(As<Lobe>::color(surface_.sheen_color) * (d * v)));
       if (finds_lookup_error<Real> && sheen_->two_directions()) {
         const Real missed = sheen_->single_lookup_scale(n_dot_l, e_l) - part.scale;
-        lookup = lookup + keep_where(lit, absolute(irradiance * base * (missed * n_dot_l)));
+        lookup = lookup + keep_where(lit, absolute(irradiance * base * unless_folded<Lobe>(missed, n_dot_l)));
       }
     }
-    part.base = keep_where(lit, irradiance * base * (part.scale * n_dot_l));
+    part.base = keep_where(lit, irradiance * base * unless_folded<Lobe>(part.scale, n_dot_l));
   }
 
-  Color base_brdf(const Real& n_dot_l, const HalfAngles<Lobe>& half) const {
+  /// The base's BRDF; times N.L where the lobes' arithmetic folds it in.
+  Color base_lobe(const Real& cosine, const HalfAngles<Lobe>& half) const {
+    constexpr bool folds = folds_cosines<Real, Lobe>;
+    const Lobe n_dot_l = As<Lobe>::number(cosine);
+    const Lobe &h = half.n_dot_h, &sine = half.sin2_theta_h;
     if (physical_) {
-      const auto albedo = physical_->albedo(As<Lobe>::number(n_dot_l));
-      return As<Real>::color(
-          physical_->base.brdf(albedo, As<Lobe>::number(n_dot_l), n_dot_v_, half.n_dot_h, half.sin2_theta_h, half.v_dot_h()));
+      const auto albedo = physical_->albedo(n_dot_l);
+      const brdf::PhysicalBase<Lobe>& base = physical_->base;
+      return As<Real>::color(folds ? base.brdf_times_n_dot_l(albedo, n_dot_l, n_dot_v_, h, sine, half.v_dot_h())
+                                   : base.brdf(albedo, n_dot_l, n_dot_v_, h, sine, half.v_dot_h()));
     }
-    return As<Real>::color(base_.brdf(As<Lobe>::number(n_dot_l), half.n_dot_h, half.sin2_theta_h, half.v_dot_h()));
+    return As<Real>::color(folds ? base_.brdf_times_n_dot_l(n_dot_l, h, sine, half.v_dot_h())
+                                 : base_.brdf(n_dot_l, h, sine, half.v_dot_h()));
   }
 
   Color through_coat(const Color& c) const { return layers_.clearcoat ? c * passed_ : c; }
