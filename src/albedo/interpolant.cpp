@@ -175,19 +175,23 @@ Curve::Curve(const Interpolant& interpolant, double sheen_roughness)
     : interpolant_(&interpolant), sheen_roughness_(std::min(sheen_roughness, 1.0)), place_(Interpolant::roughness(sheen_roughness).r) {}
 
 Curve::State Curve::make(int patch) const {
-  // The least T of the patch: where the drop is least. Where it is not negligible, neither is it elsewhere, and powers of 0 do.
+  // The least T of the patch: where the drop is least. If E is negligible there, it is throughout, and powers of 0 do.
   const double least = std::exp(-patch_x * (start_of(patch) + length_of(patch)));
   const bool is_needed = log_peak_drop(least, sheen_roughness_) < negligible_drop;
   const Patch* of = is_needed ? &interpolant_->impl_->patch(patch, place_.row) : nullptr;
   const State state = of == nullptr || of->usable ? State::Usable : State::Unusable;
-  const std::lock_guard lock(interpolant_->impl_->making_curves);
-  if (of != nullptr && state_[patch].load(std::memory_order_relaxed) == State::Unmade) {
+  Nodes powers{};
+  if (of != nullptr) {
     const Nodes values = of->row(place_.shares);
     for (int power = 0; power < nodes; ++power) {
       for (int i = 0; i < nodes; ++i) {
-        powers_[patch][power] += chebyshev().powers[power][i] * values[i];
+        powers[power] += chebyshev().powers[power][i] * values[i];
       }
     }
+  }
+  const std::lock_guard lock(interpolant_->impl_->making_curves);
+  if (state_[patch].load(std::memory_order_relaxed) == State::Unmade) {
+    std::copy(std::begin(powers), std::end(powers), std::begin(powers_[patch]));
   }
   state_[patch].store(state, std::memory_order_release);
   return state;

@@ -11,9 +11,9 @@ namespace sheen::albedo {
 /// Along y.
 template <int nodes>
 struct PlaceInRow {
-  double value;  ///< the argument itself
-  int row;       ///< of patches
-  std::array<double, nodes> shares;
+  double value = 0;  ///< the argument itself
+  int row = 0;       ///< of patches
+  std::array<double, nodes> shares{};
 };
 
 /// Along x. What it makes of a patch, which is all that the places in a row of patches ask of it, is kept.

@@ -36,7 +36,15 @@ void BoundedSamples::clear() {
   surfaces_.clear();
   materials_.clear();
   layers_.clear();
+  shown_.clear();
   ends_.clear();
+}
+
+void BoundedSamples::begin(const Ray& ray, double step) {
+  ray_ = ray;
+  step_ = step;
+  hits_.clear();
+  first_of_ray_ = layers_.size();
 }
 
 BoundedSamples::Interval BoundedSamples::Maps::add(const std::vector<MappedNormal<Bound>>& maps) {
@@ -45,8 +53,8 @@ BoundedSamples::Interval BoundedSamples::Maps::add(const std::vector<MappedNorma
   return {first, read.size()};
 }
 
-void BoundedSamples::add_layer(const Hit& hit, const Ray& ray, double step) {
-  bound_.reader().read(triangles_.at(hit.triangle), hit, ray, step, read_);
+void BoundedSamples::add_layer(const Hit& hit) {
+  bound_.reader().read(triangles_.at(hit.triangle), hit, ray_, step_, read_);
   const Placed& placed = bound_.frame().geometry.placed(hit.triangle);
   // A surface that does not blend replaces what is there.
   const bool blends = placed.material->alpha_mode == scene::AlphaMode::Blend;
@@ -60,14 +68,23 @@ void BoundedSamples::add_layer(const Hit& hit, const Ray& ray, double step) {
   surfaces_.push_back(read_.surface);
 }
 
-std::size_t BoundedSamples::add(const Seen& seen, const Ray& ray, double step) {
-  if (seen.nearest) {
-    add_layer(*seen.nearest, ray, step);
+void BoundedSamples::show(const Hit& hit) {
+  // Of a triangle carried on, the first weight is what the others leave.
+  const auto is_it = [&hit](const Hit& known) {
+    return known.triangle == hit.triangle && known.front == hit.front && known.weights.y == hit.weights.y &&
+           known.weights.z == hit.weights.z;
+  };
+  const auto known = std::find_if(hits_.begin(), hits_.end(), is_it);
+  shown_.push_back(static_cast<std::uint32_t>(first_of_ray_ + static_cast<std::size_t>(known - hits_.begin())));
+  if (known == hits_.end()) {
+    hits_.push_back(hit);
+    add_layer(hit);
   }
-  for (const Hit& hit : seen.blended) {
-    add_layer(hit, ray, step);
-  }
-  ends_.push_back(layers_.size());
+}
+
+std::size_t BoundedSamples::add(const Seen& seen) {
+  seen.for_layers([this](const Hit& hit) { show(hit); });
+  ends_.push_back(shown_.size());
   return ends_.size() - 1;
 }
 
@@ -193,8 +210,8 @@ Bound BoundedSamples::shown(const Layer& layer, Bound brdf::Rgb<Bound>::*channel
 Enclosed BoundedSamples::at(std::size_t sample) const {
   Enclosed enclosed;
   std::array<Bound, 4> out{Bound(0.0), Bound(0.0), Bound(0.0), Bound(0.0)};
-  for (std::size_t i = first_layer(sample); i < ends_[sample]; ++i) {
-    const Layer& layer = layers_[i];
+  for (std::size_t i = first_shown(sample); i < ends_[sample]; ++i) {
+    const Layer& layer = layers_[shown_[i]];
     const Bound& opacity = layer.opacity;
     const brdf::Rgb<Bound> c{shown(layer, &brdf::Rgb<Bound>::r), shown(layer, &brdf::Rgb<Bound>::g), shown(layer, &brdf::Rgb<Bound>::b)};
     enclosed.edge_on = enclosed.edge_on || layer.edge_on;

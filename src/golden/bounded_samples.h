@@ -17,8 +17,10 @@ class BoundedSamples {
   explicit BoundedSamples(const PixelBound& bound) : bound_(bound), triangles_(bound.frame().geometry, bound.frame().rays) {}
 
   void clear();
-  /// Returns the sample's index. @param step  at least PixelBound::step(seen)
-  std::size_t add(const Seen& seen, const Ray& ray, double step);
+  /// What is added from now on is seen by this ray. @param step  at least PixelBound::step() of all that is
+  void begin(const Ray& ray, double step);
+  /// Returns the sample's index. A surface that several samples show is shaded once.
+  std::size_t add(const Seen& seen);
   std::size_t count() const { return ends_.size(); }
   /// Once after all are added.
   void shade();
@@ -49,8 +51,9 @@ class BoundedSamples {
 
     Interval add(const std::vector<MappedNormal<Bound>>& maps);
   };
-  std::size_t first_layer(std::size_t sample) const { return sample == 0 ? 0 : ends_[sample - 1]; }
-  void add_layer(const Hit& hit, const Ray& ray, double step);
+  std::size_t first_shown(std::size_t sample) const { return sample == 0 ? 0 : ends_[sample - 1]; }
+  void show(const Hit& hit);
+  void add_layer(const Hit& hit);
   template <class Function>
   void for_normals(const Interval& maps, const Vec3<Bound>& unmapped, const Function& f) const;
   void shade_closed();
@@ -69,8 +72,13 @@ class BoundedSamples {
   std::vector<BelowSurface<Bound>> below_;
   std::vector<std::uint32_t> surface_of_;  // of below_
   std::vector<BelowSum<Bound>> below_sums_;
-  std::vector<Layer> layers_;      // a sample's back to front
-  std::vector<std::size_t> ends_;  // of samples, among layers_
+  Ray ray_;
+  double step_ = 0.0;
+  std::vector<Hit> hits_;  // on layers_ from first_of_ray_ on
+  std::size_t first_of_ray_ = 0;
+  std::vector<Layer> layers_;
+  std::vector<std::uint32_t> shown_;  // of layers_, a sample's back to front
+  std::vector<std::size_t> ends_;     // of samples, among shown_
 };
 
 }  // namespace sheen::golden

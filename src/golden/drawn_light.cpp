@@ -91,6 +91,23 @@ struct Off {
   }
 };
 
+/// f(direction) from where V is mirrored to the horizon beyond: on that way Schlick's weight grows, which is all that some lobes have.
+template <class Function>
+void for_directions_beyond(const LobeView<double>& lobe, const Function& f) {
+  const glm::dvec3 n(lobe.n.x, lobe.n.y, lobe.n.z);
+  const glm::dvec3 v(lobe.v.x, lobe.v.y, lobe.v.z);
+  const glm::dvec3 mirrored = 2.0 * glm::dot(n, v) * n - v;
+  glm::dvec3 along = mirrored - glm::dot(n, mirrored) * n;
+  if (glm::length(along) < 1e-4) {
+    along = glm::cross(n, std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
+  }
+  along = glm::normalize(along);
+  for (double share = 1; share > 0.004; share *= 0.75) {
+    const glm::dvec3 l = glm::normalize(share * mirrored + (1 - share) * along);
+    f(Vec3<double>{l.x, l.y, l.z});
+  }
+}
+
 /// What perfectly smooth layers mirror.
 template <class Lobe>
 Color mirrors(const Surface<Bound>& surface, Layers layers, const Lighting& lighting, const DrawnImage& image) {
@@ -174,10 +191,14 @@ DrawnLight::Open DrawnLight::open(const Surface<Bound>& surface, Layers layers, 
   for (const Vec3<double>& bright : image.brightest()) {
     add(exactly(bright), nullptr, false);
   }
-  for (const LobeView<double>& lobe : {LobeView<double>(center.normal, center.view),
-                                       LobeView<double>(layers.clearcoat ? center.coat_normal : center.normal, center.view)}) {
-    add(exactly(lobe.n * (2 * dot(lobe.n, lobe.v)) - lobe.v), nullptr, false);
+  const auto add_of_lobe = [&](const Vec3<double>& normal) {
+    const LobeView<double> lobe(normal, center.view);
     add(exactly(lobe.n), nullptr, false);
+    for_directions_beyond(lobe, [&](const Vec3<double>& l) { add(exactly(l), nullptr, false); });
+  };
+  add_of_lobe(center.normal);
+  if (layers.clearcoat) {
+    add_of_lobe(center.coat_normal);
   }
   // However the directions fall: the variance of a sum of independent numbers is below the sum of their squares.
   const glm::dvec3 of_directions = off.deviation + standard_errors * glm::sqrt(off.squares);

@@ -178,6 +178,24 @@ TEST(DrawnLight, OneDirectionBringsItsShareAndTowardALampAllOfIt) {
   EXPECT_LT(largest(true, 256), 3 * shown);
 }
 
+// In a channel that a metal does not reflect, Schlick's weight is all, of half vectors at grazing angles, which hardly any direction has.
+TEST(DrawnLight, FewDirectionsTellTheMostThatManyMayBring) {
+  scene::Environment sky;
+  sky.uniform = glm::dvec3(1.0);
+  for (const double n_dot_v : {1.0, 0.8, 0.2}) {
+    Surface<double> metal = test::lacquered_cloth(n_dot_v, 0.5, 0.3);
+    metal.base = {{1, 1e-3, 0}, 1, 0.01, {0.04, 0.04, 0.04}, 1};
+    const auto largest = [&](int told) {
+      const DrawnImage image(sky, glm::dmat3(1.0));
+      return DrawnLight::open<Bound>(spread<Bound>(metal), {}, {}, image, drawn_counts(metal, {}, false, told), 256, 5).largest;
+    };
+    const glm::dvec3 few = largest(64), many = largest(20000);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GT(few[c], 0.5 * many[c]) << "N.V " << n_dot_v << " channel " << c;
+    }
+  }
+}
+
 TEST(DrawnLight, OcclusionDimsWhatItIsOffByToo) {
   const Open open;
   Surface<double> s = test::lacquered_cloth(0.8, 0.3, 0.4);

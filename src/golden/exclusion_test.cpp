@@ -170,6 +170,25 @@ TEST(Exclusion, ALightOppositeToTheViewWhoseHalfVectorMayHaveAnyDirection) {
   EXPECT_EQ(excluded(s, 4.0F), 0) << "GGX is never above 1 / (pi alpha^2)";
 }
 
+// A fan about a point beside a pixel's centre, all of whose triangles come within the step of it: none is more likely than another.
+TEST(Exclusion, MoreTrianglesThanAnyoneWouldAskFor) {
+  const auto of = [](std::uint32_t count) {
+    scene::Scene s = plane(test::lambertian({0.5, 0.5, 0.5, 1.0}));
+    scene::Primitive& fan = s.primitives[0];
+    fan = {};
+    fan.positions.emplace_back(1.0 / 16 + 1e-4, 1.0 / 16 + 1e-4, 0.0);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const double angle = 2.0 * brdf::pi * i / count;
+      fan.positions.emplace_back(3.0 * std::cos(angle), 3.0 * std::sin(angle), 0.0);
+      fan.indices.insert(fan.indices.end(), {0, i + 1, (i + 1) % count + 1});
+    }
+    fan.normals.assign(fan.positions.size(), {0.0, 0.0, 1.0});
+    return excluded(s, 1.0F);
+  };
+  EXPECT_EQ(of(60), 0);
+  EXPECT_EQ(of(200), 1);
+}
+
 TEST(Exclusion, ATriangleOfTwoCornersIsNothing) {
   scene::Primitive p;
   add_strip(p, 40.0, -40.0, 40.0, vertex_white);

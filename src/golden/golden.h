@@ -45,7 +45,7 @@ struct Settings {
 /// where a texture without mipmaps is seen from so far that the step spans half a texel; 4 where the rules promise nothing), `mirrored`,
 /// and bound.A of the coverage. With Settings::drawn_directions also direction.R .G .B, the most of the radiance that one of them brings,
 /// as far as a few of them tell. Under an image also standard_error.R .G .B of the radiance, of which the bound holds five, and what all
-/// may have missed. At an excluded pixel the bound still holds every value seen at the corners of the step. `mirrored` is 1 where N.V <= 0
+/// may have missed. Where `excluded` is 1 there is no bound: its channels are 0, but for such chance. `mirrored` is 1 where N.V <= 0
 /// mirrored V in a lobe (README, "How a verdict is reached"), which other viewers may treat otherwise. Deterministic whatever the number of
 /// threads. Throws scene::Error, std::runtime_error if Embree cannot work.
 image::Image render(const scene::Scene& scene, const Settings& settings);

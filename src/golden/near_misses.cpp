@@ -178,7 +178,12 @@ bool NearMisses::note_at_clip_plane(const Frame& frame, std::uint32_t triangle) 
 }
 
 void NearMisses::note(std::uint64_t pixel, bool is_covered) {
-  const auto add = [&](std::uint8_t bit) { return seen_[pixel].fetch_or(bit, std::memory_order_relaxed); };
+  std::atomic<std::uint8_t>& seen = seen_[pixel];
+  // Most of what lies behind much else is noted already, and to read costs less than to write.
+  if ((seen.load(std::memory_order_relaxed) & (is_covered ? covered_again : missed)) != 0) {
+    return;
+  }
+  const auto add = [&seen](std::uint8_t bit) { return seen.fetch_or(bit, std::memory_order_relaxed); };
   if (!is_covered) {
     add(missed);
   } else if ((add(covered_once) & covered_once) != 0) {

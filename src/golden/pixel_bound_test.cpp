@@ -90,7 +90,8 @@ std::vector<double> shares(const scene::Scene& s, Settings settings, int tries, 
       }
       const double step = bound.step(seen);
       BoundedSamples samples(bound);
-      samples.add(seen, ray, step);
+      samples.begin(ray, step);
+      samples.add(seen);
       samples.shade();
       const Enclosed enclosed = samples.at(0);
       if (!std::isfinite(enclosed.deviation.x)) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include <glm/common.hpp>
 
@@ -74,17 +73,6 @@ glm::dvec3 Tile::background(const Ray& ray) const {
   return shows_background() ? frame_.settings.environment->radiance(-frame_.rays.toward_camera(ray)) : glm::dvec3(0.0);
 }
 
-// Also what is seen where the other of two surfaces at one depth wins. Leaves `seen` without its tie.
-void Tile::add_sample_with_tie(Seen& seen, const Ray& ray) {
-  add_sample(seen, ray);
-  if (!seen.tie) {
-    return;
-  }
-  const std::optional<Hit> nearest = std::exchange(seen.nearest, std::exchange(seen.tie, std::nullopt));
-  add_sample(seen, ray);
-  seen.nearest = nearest;
-}
-
 // What is seen at the levels of detail that OpenGL ES allows each texture of each layer, for the light of an environment: bounded surfaces
 // hold what punctual lights bring.
 // @param first  of the layers of `seen`, as they are without such a choice
@@ -112,7 +100,7 @@ void Tile::add_shifted() {
   for (std::size_t corner = 1; corner < looks_.size(); ++corner) {
     Look& look = looks_[corner];
     if (!looks_[0].seen.empty() || !look.seen.empty() || shows_background()) {
-      add_sample_with_tie(look.seen, look.ray);
+      add_sample(look.seen, look.ray);
     }
   }
 }
@@ -162,22 +150,19 @@ Tile::Plan Tile::plan(int x, int y) {
   const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(frame_.settings.view.width) + static_cast<std::uint64_t>(x);
   const Exclusion tied = centre.seen.tie || centre.seen.ambiguous ? Exclusion::Surface : Exclusion::None;
   Plan plan{pixel, static_cast<std::uint32_t>(samples_.size()), 0, groups, groups, tied, 0, 0};
-  if (!bounds) {
+  const double step = bounds && tied == Exclusion::None ? look_around(x, y, plan) : 0.0;
+  // What another surface may show in its place is not looked for: nobody compares the pixel.
+  if (!bounds || plan.excluded != Exclusion::None) {
     add_sample(centre.seen, centre.ray);
     plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
     return plan;
   }
   plan.first_bound = bounded_->count();
-  double step = look_around(x, y, plan);
-  if (plan.excluded == Exclusion::None) {
-    step = std::max(step, look_at_near_misses(x, y, plan));
-    plan.excluded = plan.excluded == Exclusion::None && may_open(step) ? Exclusion::Surface : plan.excluded;
-  }
   enclose(step);
   plan.last_bound = bounded_->count();
   bool sampled = true;
   if (has_environment()) {
-    add_sample_with_tie(centre.seen, centre.ray);
+    add_sample(centre.seen, centre.ray);
     add_shifted();
     add_carried_on();
     sampled = add_nudged(plan);
@@ -185,9 +170,7 @@ Tile::Plan Tile::plan(int x, int y) {
     add_sample(centre.seen, centre.ray);
   }
   plan.shifted_end = static_cast<std::uint32_t>(samples_.size());
-  if (plan.excluded == Exclusion::None) {
-    plan.excluded = mask_uncertain(step) ? Exclusion::Mask : sampled ? Exclusion::None : Exclusion::Texels;
-  }
+  plan.excluded = mask_uncertain(step) ? Exclusion::Mask : sampled ? Exclusion::None : Exclusion::Texels;
   for (std::size_t k = 0; k < looks_.size() && has_environment(); ++k) {
     if (k == 0) {
       add_levels(centre.seen, centre.ray, samples_[plan.centre].first);
@@ -283,7 +266,7 @@ Pixel Tile::finish(const Plan& plan) const {
   pixel.coverage = centre.coverage;
   pixel.standard_error = full.standard_error;
   pixel.direction = plan.drawn.largest;
-  const Enclosed bounded = bounded_ ? enclosed(plan, centre.direct) : Enclosed{};
+  const Enclosed bounded = plan.first_bound < plan.last_bound ? enclosed(plan, centre.direct) : Enclosed{};
   const glm::dvec4 open = bounded.deviation + glm::dvec4(change + plan.drawn.off, 0.0);
   pixel.bound = glm::dvec3(open) + centre.lookup + standard_errors * full.standard_error + missed_directions * full.largest;
   pixel.coverage_bound = shows_background() ? 0.0 : open.w;

@@ -42,6 +42,9 @@ inline constexpr double most_texels_of_corners = 0.5;
 /// Of texture coordinates, as LodChoice has them.
 inline const std::array<glm::dvec2, 4> nudges{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
 
+/// Of triangles near a pixel's centre, not over it, that a driver may show there: where there are more it may open gaps as well.
+inline constexpr std::size_t most_near_misses = 64;
+
 /// A few pixels worked out together: first every ray is cast and every surface read, then all are shaded in batches, then composed.
 class Tile {
  public:
@@ -91,7 +94,6 @@ class Tile {
   void add_sample(const Seen& seen, const Ray& ray);
   void add_varied(std::uint32_t first, std::uint32_t count, std::uint32_t varied, const Hit& hit, const Ray& ray, LodChoice lod);
   void add_layers(const Seen& seen, const Ray& ray);
-  void add_sample_with_tie(Seen& seen, const Ray& ray);
   void add_layer(const Hit& hit, const Ray& ray);
   bool interrupted(const Ray& ray, const Seen& seen, std::optional<double> depths = std::nullopt) const;
   Seen extended(const Seen& centre, const Ray& ray) const;

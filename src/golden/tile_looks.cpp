@@ -61,10 +61,10 @@ Seen Tile::extended(const Seen& centre, const Ray& ray) const {
   return out;
 }
 
-// What the corners of the step see, which is returned: as far as the surfaces that are seen may be displaced.
+// What the corners of the step see, which is returned: as far as the surfaces that are seen may be displaced. And what comes near besides.
 double Tile::look_around(int x, int y, Plan& plan) {
   const Seen& centre = looks_[0].seen;
-  const bool alone = centre.nearest && !centre.tie && bound_->near_misses().has_one_triangle(x, y);
+  const bool alone = centre.nearest && bound_->near_misses().has_one_triangle(x, y);
   double step = bound_->step(centre);
   while (true) {
     look(step, alone && step <= NearMisses::near_steps * displacement(frame_.settings), plan);
@@ -73,11 +73,17 @@ double Tile::look_around(int x, int y, Plan& plan) {
       farther = std::max(farther, bound_->step(look.seen));
     }
     // Neighbours on one surface differ by less than this; a nearer surface may be displaced farther.
-    if (farther <= 1.05 * step) {
-      return farther;
-    }
+    const bool is_enough = farther <= 1.05 * step || plan.excluded != Exclusion::None;
     step = farther;
+    if (is_enough) {
+      break;
+    }
   }
+  step = std::max(step, look_at_near_misses(x, y, plan));
+  if (plan.excluded == Exclusion::None && may_open(step)) {
+    plan.excluded = Exclusion::Surface;
+  }
+  return step;
 }
 
 // @param alone  whether there is no triangle but the centre's within the step
@@ -109,6 +115,9 @@ double Tile::look_at_near_misses(int x, int y, Plan& plan) {
       const bool met = std::any_of(looks_.begin(), looks_.end(), [&](const Look& look) { return look.seen.shows(miss.triangle, front); });
       if (plan.excluded == Exclusion::None && !met && (front || placed.material->double_sided) && look_at(miss, front, plan)) {
         farthest = std::max(farthest, miss.reach);
+        if (looks_.size() > looks_around + most_near_misses) {
+          plan.excluded = Exclusion::Surface;
+        }
       }
     }
   }
@@ -198,18 +207,13 @@ bool Tile::may_open(double step) const {
 }
 
 // A driver whose grid moves an edge past a sample shades that sample with the triangles of the other side, carried on beyond the edge: with
-// all that any of the looks meets, and the other of two surfaces at one depth. The centre's own are the first.
+// all that any of the looks meets. The centre's own are the first.
 void Tile::enclose(double step) {
   const Look& centre = looks_[0];
+  bounded_->begin(centre.ray, step);
   for (std::size_t k = 0; k < looks_.size(); ++k) {
-    const Seen& seen = looks_[k].seen;
     if (!seen_before(k)) {
-      bounded_->add(k == 0 ? seen : extended(seen, centre.ray), centre.ray, step);
-    }
-    if (seen.tie) {
-      Seen tied = seen;
-      tied.nearest = seen.tie;
-      bounded_->add(extended(tied, centre.ray), centre.ray, step);
+      bounded_->add(k == 0 ? centre.seen : extended(looks_[k].seen, centre.ray));
     }
   }
 }
