@@ -136,8 +136,11 @@ void NearMisses::add(const Frame& frame, std::uint32_t triangle, std::vector<Nea
     const std::pair<int, int> covered = turns ? std::pair(0, 0) : touched(y, 0.0);
     const auto is_covered = [&covered](int x) { return x >= covered.first && x < covered.second; };
     const std::pair<int, int> neared = touched(y, near);
-    for (int x = neared.first; x < neared.second && !is_noted; ++x) {
-      note(pixel_at(x, y, width), is_covered(x));
+    if (!is_noted) {
+      const auto [first, last] = covered.first < covered.second ? covered : std::pair(neared.second, neared.second);
+      note_missed(y, neared.first, first);
+      note_covered(y, first, last);
+      note_missed(y, last, neared.second);
     }
     if (neared == covered) {
       continue;
@@ -169,32 +172,61 @@ bool NearMisses::note_at_clip_plane(const Frame& frame, std::uint32_t triangle) 
     const std::pair<int, int> columns = pixels(extent(polygon, 0), within, beyond_.width());
     const std::pair<int, int> rows = pixels(extent(polygon, 1), within, beyond_.height());
     for (int y = rows.first; y < rows.second; ++y) {
-      for (int x = columns.first; x < columns.second; ++x) {
-        note(pixel_at(x, y, width_), false);
-      }
+      note_missed(y, columns.first, columns.second);
     }
   }
   return true;
 }
 
-void NearMisses::note(std::uint64_t pixel, bool is_covered) {
-  std::atomic<std::uint8_t>& seen = seen_[pixel];
-  // Most of what lies behind much else is noted already, and to read costs less than to write.
-  if ((seen.load(std::memory_order_relaxed) & (is_covered ? covered_again : missed)) != 0) {
-    return;
+// The pixels [first, last) of a row. To read costs less than to write, and most of what lies behind much else is noted already.
+void NearMisses::note_missed(int y, int first, int last) {
+  for (int x = first; x < last; ++x) {
+    std::atomic<std::uint8_t>& seen = seen_[pixel_at(x, y, width_)];
+    if ((seen.load(std::memory_order_relaxed) & missed) == 0) {
+      seen.fetch_or(missed, std::memory_order_relaxed);
+    }
   }
-  const auto add = [&seen](std::uint8_t bit) { return seen.fetch_or(bit, std::memory_order_relaxed); };
-  if (!is_covered) {
-    add(missed);
-  } else if ((add(covered_once) & covered_once) != 0) {
-    add(covered_again);
+}
+
+// Returns whether another triangle that covers it would change nothing.
+bool NearMisses::note_covered(std::uint64_t pixel) {
+  std::atomic<std::uint8_t>& seen = seen_[pixel];
+  if ((seen.load(std::memory_order_relaxed) & (missed | covered_again)) != 0) {
+    return true;
+  }
+  if ((seen.fetch_or(covered_once, std::memory_order_relaxed) & covered_once) == 0) {
+    return false;
+  }
+  seen.fetch_or(covered_again, std::memory_order_relaxed);
+  return true;
+}
+
+// The pixels [first, last) of a row.
+void NearMisses::note_covered(int y, int first, int last) {
+  for (int x = first; x < last;) {
+    const int end = std::min(last, (x / block + 1) * block);
+    const bool is_whole = end - x == block;
+    std::atomic<bool>& settled = settled_[pixel_at(x / block, y, blocks_)];
+    if (is_whole && settled.load(std::memory_order_relaxed)) {
+      x = end;
+      continue;
+    }
+    bool all = is_whole;
+    for (; x < end; ++x) {
+      all = note_covered(pixel_at(x, y, width_)) && all;
+    }
+    if (all) {
+      settled.store(true, std::memory_order_relaxed);
+    }
   }
 }
 
 NearMisses::NearMisses(const Frame& frame)
     : width_(frame.rays.width()),
       beyond_(between_farther_planes(frame)),
-      seen_(static_cast<std::size_t>(frame.rays.width()) * static_cast<std::size_t>(frame.rays.height())) {
+      blocks_((frame.rays.width() + block - 1) / block),
+      seen_(static_cast<std::size_t>(frame.rays.width()) * static_cast<std::size_t>(frame.rays.height())),
+      settled_(static_cast<std::size_t>(blocks_) * static_cast<std::size_t>(frame.rays.height())) {
   constexpr std::size_t at_once = 1024;  // triangles
   const std::size_t count = frame.geometry.triangle_count();
   std::vector<std::vector<NearMiss>> parts((count + at_once - 1) / at_once);

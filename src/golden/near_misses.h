@@ -40,12 +40,17 @@ class NearMisses {
 
  private:
   void add(const Frame& frame, std::uint32_t triangle, std::vector<NearMiss>& misses);
-  void note(std::uint64_t pixel, bool is_covered);
+  void note_missed(int y, int first, int last);
+  bool note_covered(std::uint64_t pixel);
+  void note_covered(int y, int first, int last);
   bool note_at_clip_plane(const Frame& frame, std::uint32_t triangle);
 
   int width_;
-  RayGenerator beyond_;  // of a camera whose clip planes lie farther apart, by what a depth buffer may take them for
+  RayGenerator beyond_;             // of a camera whose clip planes lie farther apart, by what a depth buffer may take them for
+  static constexpr int block = 16;  // pixels of a row
+  int blocks_;                      // of a row, the last one perhaps not whole
   std::vector<std::atomic<std::uint8_t>> seen_;  // by pixel, bits
+  std::vector<std::atomic<bool>> settled_;       // by block: whether what covers its pixels too changes nothing
   std::vector<NearMiss> misses_;                 // by pixel
 };
 
