@@ -48,6 +48,27 @@ Interval extent(const std::vector<WindowPoint>& polygon, int axis) {
   return {low->window[axis], high->window[axis]};
 }
 
+// How far the part of a convex polygon between two rows reaches across: its corners there, and where its edges meet the rows. Low is above
+// high where there is no such part.
+Interval extent_between(const std::vector<WindowPoint>& polygon, double low, double high) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Interval across{infinity, -infinity};
+  const auto include = [&across](double x) { across = {std::min(across.low, x), std::max(across.high, x)}; };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2& a = polygon[i].window;
+    const glm::dvec2& b = polygon[i + 1 < polygon.size() ? i + 1 : 0].window;
+    if (a.y >= low && a.y <= high) {
+      include(a.x);
+    }
+    for (const double row : {low, high}) {
+      if ((a.y < row && b.y > row) || (a.y > row && b.y < row)) {
+        include(a.x + (b.x - a.x) * ((row - a.y) / (b.y - a.y)));
+      }
+    }
+  }
+  return across;
+}
+
 // Pixels whose centres lie within `reach` of an interval: [first, last).
 std::pair<int, int> pixels(const Interval& interval, double reach, int size) {
   const double first = std::clamp(std::ceil(interval.low - reach - 0.5), 0.0, static_cast<double>(size));
@@ -103,7 +124,6 @@ void NearMisses::add(const Frame& frame, std::uint32_t triangle, std::vector<Nea
   if (polygon.empty()) {
     return;
   }
-  const bool perspective = frame.rays.camera().perspective;
   const Interval across = extent(polygon, 0);
   const Interval along = extent(polygon, 1);
   const int width = frame.rays.width();
@@ -128,8 +148,8 @@ void NearMisses::add(const Frame& frame, std::uint32_t triangle, std::vector<Nea
   }
   // Of a row, the pixels that some point within so much of their centres' line comes so near to.
   const auto touched = [&](int y, double within) {
-    const std::vector<WindowPoint> strip = between(polygon, 1, y + 0.5 - within, y + 0.5 + within, perspective);
-    return strip.empty() ? std::pair(0, 0) : pixels(extent(strip, 0), within, width);
+    const Interval strip = extent_between(polygon, y + 0.5 - within, y + 0.5 + within);
+    return strip.low > strip.high ? std::pair(0, 0) : pixels(strip, within, width);
   };
   for (int y = rows.first; y < rows.second; ++y) {
     // Of a triangle that may turn over, what it covers is missed as well.
